@@ -1,0 +1,50 @@
+// What is to be rendered, and how: the same for the device's caster and the reference caster.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+
+namespace quincunx {
+
+/// One isosurface. Colour is linear RGB 0..1, opacity 0..1.
+struct Isosurface {
+  double isovalue = 0.0;
+  glm::dvec3 color{0.9, 0.82, 0.7};
+  double opacity = 1.0;
+};
+
+enum class Intersect { exact, march };
+enum class Normal { analytic, central };
+
+/// A picture to make.
+struct Scene {
+  std::vector<Isosurface> isosurfaces;  ///< at least one; any order; isovalues differ
+  Camera camera;
+  int width = 512, height = 512;
+  glm::dvec3 background{0.0};  ///< linear RGB behind everything; alpha there is 0
+  double ambient = 0.2;        ///< the part of the colour that does not depend on the normal; headlight for the rest
+
+  Intersect intersect = Intersect::exact;
+  double step = 0.25;  ///< of Intersect::march, in cells along the ray
+  Normal normal = Normal::analytic;
+  double delta = 0.5;  ///< of Normal::central, in cells
+  bool cost = false;   ///< also the cost channels
+};
+
+/// Throws InputError naming the flag where a number is out of range or not finite.
+void check_scene(const Scene& scene);
+
+/// A finished picture, float32 channels as DESIGN names them, row 0 at the top, one plane after another.
+///   color[4*p ..]  R G B A (linear, alpha = 1 - transmittance, colour premultiplied over the background)
+///   depth[p]       Z: distance from the eye along the ray in world units to the first hit; +inf where nothing is hit
+///   normal[3*p ..] N.X N.Y N.Z: unit normal at the first hit, world space, facing the viewer; 0 where nothing is hit
+///   cost[3*p ..]   evaluations, steps, intervals; empty unless asked for
+struct Frame {
+  int width = 0, height = 0;
+  std::vector<float> color, depth, normal, cost;
+};
+
+}  // namespace quincunx

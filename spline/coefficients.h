@@ -1,0 +1,33 @@
+// Coefficients of a spline: what the prefilter makes of a volume's samples.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lattice/lattice.h"
+
+namespace quincunx {
+
+/// Spline coefficients on a lattice, padded on every side of every coset by `apron` samples that repeat the
+/// border (each index of each coset clamped), so that no evaluation inside the domain needs to clamp.
+/// T is double (the reference) or float (what the kernels read).
+template <class T>
+struct Coefficients {
+  LatticeKind lattice = LatticeKind::bcc;
+  Extents extents{0};  ///< without the apron
+  int apron = 0;
+  World world;
+  std::vector<T> data;  ///< number ((c*pz + k+apron)*py + j+apron)*px + i+apron, p = extents + 2*apron
+
+  Extents padded() const { return extents + std::int64_t(2 * apron); }
+  std::int64_t stride_y() const { return padded().x; }
+  std::int64_t stride_z() const { return padded().x * padded().y; }
+  std::int64_t stride_coset() const { return padded().x * padded().y * padded().z; }
+  /// Number in `data` of (coset; index), each index in [-apron, extent + apron).
+  std::size_t number(int coset, const glm::i64vec3& index) const {
+    const glm::i64vec3 p = index + std::int64_t(apron);
+    return std::size_t(coset * stride_coset() + p.z * stride_z() + p.y * stride_y() + p.x);
+  }
+};
+
+}  // namespace quincunx

@@ -1,0 +1,68 @@
+// The plug-in point of reconstruction splines, and the one list of them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lattice/progress.h"
+#include "lattice/volume.h"
+#include "spline/coefficients.h"
+
+namespace quincunx {
+
+/// Value and gradient at a point; the gradient is per lattice coordinate.
+struct Jet {
+  double value = 0.0;
+  glm::dvec3 gradient{0.0};
+};
+
+/// A spline s(u) = sum_j c_j M(u - j) over a lattice's points j, piecewise polynomial, in lattice coordinates u.
+/// Its double-precision functions here are the reference that every kernel is compared with.
+class Spline {
+ public:
+  virtual ~Spline() = default;
+
+  virtual std::string_view name() const = 0;
+  virtual LatticeKind lattice() const = 0;
+  /// Total degree of a polynomial piece, and so its degree along a ray.
+  virtual int degree() const = 0;
+  /// Samples of border that the stencil reaches beyond the domain, per side of each coset.
+  virtual int apron() const = 0;
+  /// The GLSL twin, a file of shaders/.
+  virtual std::string_view shader() const = 0;
+
+  /// The generator M(x) and its gradient, x in lattice coordinates from its centre. M has unit sum over the lattice.
+  virtual Jet generator(const glm::dvec3& x) const = 0;
+
+  /// s and its gradient at u, which is inside the domain (asserted).
+  virtual Jet evaluate(const Coefficients<double>& c, const glm::dvec3& u) const = 0;
+
+  /// Appends to `t` the parameters strictly between t0 and t1 at which o + t d crosses a knot plane inside the
+  /// cell (unit cube) `cell`, ascending. Between two of them the spline is one polynomial along the ray.
+  virtual void split(const glm::ivec3& cell, const glm::dvec3& o, const glm::dvec3& d, double t0, double t1,
+                     std::vector<double>& t) const = 0;
+
+  /// Bernstein coefficients (degree+1 of them) of s on the segment a..b, which lies in one polynomial piece of the
+  /// cell `cell`; the piece is that of the segment's middle. s at a is bernstein.front(), at b bernstein.back().
+  virtual void restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& a,
+                                   const glm::dvec3& b, std::span<double> bernstein) const = 0;
+
+  /// Coefficients whose spline quasi-interpolates the samples with the spline's full approximation order, or the samples themselves
+  /// (`Prefilter::none`). Computed in double. Throws InputError on NaN or infinite samples (count and first place).
+  enum class Prefilter { none, quasi_interpolation };
+  virtual Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
+                                            const Progress& progress = {}) const = 0;
+  /// The same, each rounded to float once.
+  virtual Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter,
+                                                 const Progress& progress = {}) const = 0;
+};
+
+/// The names make_spline knows.
+const std::vector<std::string_view>& spline_names();
+
+/// The spline of that name; throws InputError naming the choices.
+std::unique_ptr<Spline> make_spline(std::string_view name);
+
+}  // namespace quincunx
