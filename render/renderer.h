@@ -1,0 +1,68 @@
+// A volume made ready to be rendered again and again: the one interface of `--device cpu` and of Vulkan devices.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lattice/progress.h"
+#include "render/scene.h"
+#include "spline/spline.h"
+
+namespace quincunx {
+
+/// How empty space is skipped. None of it changes a pixel.
+struct SkipConfig {
+  std::string structure = "grid";  ///< a name of structure_names()
+  int block = 16;                  ///< edge of the structure's blocks in cells, a power of two, 1..256
+  bool cell_test = true;           ///< a last test of single cells inside the intervals (occupancy bits); not for none
+};
+
+/// What one call of Renderer::render cost. Milliseconds; 0 for what did not have to be done (again).
+struct RenderStats {
+  std::string device;
+  double prefilter_ms = 0, bounds_ms = 0, structure_ms = 0, upload_ms = 0, compile_ms = 0;
+  std::vector<double> trace_ms;  ///< one entry a frame, timestamp queries where the device has them
+  std::vector<std::pair<std::string, std::uint64_t>> device_bytes;  ///< by purpose: coefficients, structure, occupancy, frame
+  std::uint64_t blocks = 0, active_blocks = 0, active_cells = 0;
+  std::uint64_t rays = 0, hits = 0, evaluations = 0;  ///< evaluations only where asked for
+};
+
+/// One thing a kernel can contain, whether it does, and why (`--explain`).
+struct Feature {
+  std::string name;
+  bool compiled = false;
+  std::string why;
+};
+
+class Renderer {
+ public:
+  struct Config {
+    std::string spline = "bcc7";
+    Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+    bool validation = false;  ///< Vulkan validation layers; any message throws
+  };
+  struct Request {
+    Scene scene;
+    SkipConfig skip;
+    int repeat = 1;                  ///< frames to trace, all alike; the first is a warm-up when there are more than one
+    bool count_evaluations = false;  ///< one more, untimed pass that counts
+  };
+
+  virtual ~Renderer() = default;
+  /// Renders. What does not depend on a changed part of the request is kept from the call before: the coefficients
+  /// and cell bounds always, the block bounds while the block size stays, pipelines while the variant stays.
+  /// Throws InputError for a bad request (flag named).
+  virtual Frame render(const Request& request, RenderStats& stats, const Progress& progress = {}) = 0;
+  /// What the kernel for `request` contains and what it leaves out. Empty for the CPU.
+  virtual std::vector<Feature> explain(const Request& request) = 0;
+};
+
+/// Makes a BCC volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
+/// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
+/// Throws InputError for a volume that is not BCC, has NaN or infinite samples, or a device that is not there.
+std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
+
+}  // namespace quincunx
