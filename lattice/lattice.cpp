@@ -1,0 +1,26 @@
+#include "lattice/lattice.h"
+
+#include <fmt/format.h>
+
+#include "lattice/error.h"
+
+namespace quincunx {
+
+std::string_view lattice_name(LatticeKind kind) { return kind == LatticeKind::bcc ? "bcc" : "cartesian"; }
+
+LatticeKind parse_lattice(std::string_view name, std::string_view what) {
+  for (const LatticeKind kind : {LatticeKind::bcc, LatticeKind::cartesian}) {
+    if (name == lattice_name(kind)) return kind;
+  }
+  throw InputError(fmt::format("{}: unknown lattice '{}', expected bcc or cartesian", what, name));
+}
+
+int coset_count(LatticeKind kind) { return kind == LatticeKind::bcc ? 2 : 1; }
+
+int lattice_step(LatticeKind kind) { return kind == LatticeKind::bcc ? 2 : 1; }
+
+glm::i64vec3 domain_max(LatticeKind kind, const Extents& extents) {
+  return std::int64_t(lattice_step(kind)) * extents - std::int64_t(1);
+}
+
+}  // namespace quincunx
