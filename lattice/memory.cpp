@@ -18,9 +18,10 @@ std::uint64_t checked_sample_count(LatticeKind lattice, const Extents& extents, 
                                    extents.y, extents.z));
     }
     if (std::uint64_t(n) > max_bytes / sample_type_bytes(type) / count) {
-      throw InputError(fmt::format("{}: extents {} x {} x {} are more samples than can be counted, expected fewer than "
-                                   "2^62 bytes",
-                                   what, extents.x, extents.y, extents.z));
+      throw InputError(
+          fmt::format("{}: extents {} x {} x {} are more samples than can be counted, expected fewer than "
+                      "2^62 bytes",
+                      what, extents.x, extents.y, extents.z));
     }
     count *= std::uint64_t(n);
   }

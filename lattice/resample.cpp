@@ -9,7 +9,8 @@
 namespace quincunx {
 namespace {
 
-/// Appends to `to` every second sample per axis of the grid `from` of `size`, beginning at (first, first, first): `extents` of them.
+/// Appends to `to` every second sample per axis of the grid `from` of `size`, beginning at (first, first, first):
+/// `extents` of them.
 template <class T>
 void append_every_second(const std::vector<T>& from, const Extents& size, int first, const Extents& extents,
                          std::vector<T>& to) {
@@ -25,14 +26,15 @@ void append_every_second(const std::vector<T>& from, const Extents& size, int fi
 
 Volume bcc_subset(const Volume& cartesian) {
   if (cartesian.lattice != LatticeKind::cartesian) {
-    throw InputError(fmt::format("volume: lattice {}, expected cartesian to take a BCC subset of",
-                                 lattice_name(cartesian.lattice)));
+    throw InputError(
+        fmt::format("volume: lattice {}, expected cartesian to take a BCC subset of", lattice_name(cartesian.lattice)));
   }
   check_volume(cartesian, "volume");
   const Extents& size = cartesian.extents;
   if (size.x < 2 || size.y < 2 || size.z < 2) {
-    throw InputError(fmt::format("volume: {} x {} x {} samples, expected at least 2 on every axis to take a BCC subset of",
-                                 size.x, size.y, size.z));
+    throw InputError(
+        fmt::format("volume: {} x {} x {} samples, expected at least 2 on every axis to take a BCC subset of", size.x,
+                    size.y, size.z));
   }
 
   // A BCC point u stands at the Cartesian index u, so the world stays as it is.
@@ -54,7 +56,8 @@ Volume bcc_subset(const Volume& cartesian) {
 
 Volume cartesian_subset(const Volume& bcc) {
   if (bcc.lattice != LatticeKind::bcc) {
-    throw InputError(fmt::format("volume: lattice {}, expected bcc to take the even coset of", lattice_name(bcc.lattice)));
+    throw InputError(
+        fmt::format("volume: lattice {}, expected bcc to take the even coset of", lattice_name(bcc.lattice)));
   }
   check_volume(bcc, "volume");
 

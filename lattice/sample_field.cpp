@@ -49,9 +49,8 @@ Volume sample_field(const Field& field, LatticeKind lattice, const Extents& exte
   const std::int64_t batch = std::max<std::int64_t>(1, (1 << 18) / extents.x);
   for (std::int64_t begin = 0; begin < rows; begin += batch) {
     report(progress, double(begin) / double(rows));
-    tbb::parallel_for(begin, std::min(begin + batch, rows), [&](std::int64_t row) {
-      sample_row(field, volume, row, samples.data() + row * extents.x);
-    });
+    tbb::parallel_for(begin, std::min(begin + batch, rows),
+                      [&](std::int64_t row) { sample_row(field, volume, row, samples.data() + row * extents.x); });
   }
   report(progress, 1.0);
   volume.samples = std::move(samples);

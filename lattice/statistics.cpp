@@ -63,8 +63,8 @@ std::size_t quantile_rank(double fraction, std::size_t n) {
 
 /// By counting: integers of 8 or 16 bits.
 template <class T>
-  requires std::is_integral_v<T>
-std::vector<double> quantiles_of(const std::vector<T>& samples, std::span<const double> fractions) {
+requires std::is_integral_v<T> std::vector<double> quantiles_of(const std::vector<T>& samples,
+                                                                std::span<const double> fractions) {
   constexpr int lowest = std::numeric_limits<T>::lowest();
   std::vector<std::size_t> histogram(std::size_t(std::numeric_limits<T>::max() - lowest) + 1, 0);
   for (const T s : samples) ++histogram[std::size_t(int(s) - lowest)];
