@@ -1,0 +1,36 @@
+// From samples to spline coefficients on the BCC lattice.
+#pragma once
+
+#include <string_view>
+
+#include "lattice/progress.h"
+#include "lattice/volume.h"
+#include "spline/coefficients.h"
+
+namespace quincunx {
+
+/// A symmetric mask on a BCC point and its 14 nearest neighbours, integers over one denominator: the point itself,
+/// the 6 points at +-2 e_a, the 8 points (+-1,+-1,+-1). Integers keep sums of integer samples exact.
+struct BccMask {
+  double centre, axial, diagonal, denominator;
+};
+
+/// The samples as they are.
+inline constexpr BccMask kIdentityMask{1, 0, 0, 1};
+/// q7 of bcc7: 19/12 at the centre, -1/24 at the 14 neighbours.
+inline constexpr BccMask kBcc7Mask{38, -1, -1, 24};
+
+/// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double and
+/// rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
+/// Throws InputError where the volume is not BCC, its samples are not as many as its extents say, one is NaN or infinite,
+/// or a result does not fit T.
+template <class T>
+Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
+                                 const Progress& progress);
+
+extern template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
+                                                      const Progress&);
+extern template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
+                                                     const Progress&);
+
+}  // namespace quincunx

@@ -1,0 +1,45 @@
+#include "spline/spline.h"
+
+#include <string>
+
+#include "lattice/error.h"
+#include "spline/bcc7.h"
+
+namespace quincunx {
+namespace {
+
+/// The one list of splines.
+struct Row {
+  std::string_view name;
+  std::unique_ptr<Spline> (*make)();
+};
+
+template <class T>
+std::unique_ptr<Spline> make() {
+  return std::make_unique<T>();
+}
+
+constexpr Row kSplines[] = {
+    {"bcc7", make<Bcc7>},
+};
+
+}  // namespace
+
+const std::vector<std::string_view>& spline_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const Row& row : kSplines) list.push_back(row.name);
+    return list;
+  }();
+  return names;
+}
+
+std::unique_ptr<Spline> make_spline(std::string_view name) {
+  for (const Row& row : kSplines)
+    if (row.name == name) return row.make();
+  std::string choices;
+  for (const std::string_view known : spline_names()) choices += (choices.empty() ? "" : ", ") + std::string(known);
+  throw InputError("spline '" + std::string(name) + "' is unknown; expected one of: " + choices);
+}
+
+}  // namespace quincunx
