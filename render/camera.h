@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 #include <string_view>
 
 #include "lattice/volume.h"
@@ -20,23 +21,27 @@ struct Camera {
 struct CameraFrame {
   glm::dvec3 forward, right, up;
 };
-/// Throws InputError naming `what` where eye = target, up is parallel to the view, fov is out of range, or a number is not finite.
+/// Throws InputError naming `what` where eye = target, up is parallel to the view, fov is out of range, or a number is
+/// not finite.
 CameraFrame camera_frame(const Camera& camera, int width, int height, std::string_view what = "camera");
 
 /// The unit direction through pixel (i,j).
 glm::dvec3 pixel_direction(const CameraFrame& frame, int width, int height, int i, int j);
 
-/// Looks at the centre of the volume's domain from azimuth (degrees about the world's z axis, 0 = looking along +y from -y)
-/// and elevation (degrees above the xy plane), at the distance from which the domain's bounding sphere just fits; zoom > 1 comes nearer
-/// by narrowing the field of view.
+/// A view of the whole volume. Azimuth in degrees about the world's z axis, 0 = looking along +y from -y, 90 = from +x;
+/// elevation in degrees above the xy plane, -90..90; zoom > 1 comes nearer by narrowing the field of view.
 struct Orbit {
   double azimuth = 0.0, elevation = 0.0, zoom = 1.0;
 };
+/// Looks at the centre of the volume's domain, world z upwards, from the nearest place at which all eight corners of the
+/// domain lie within 95 % of a W x H image (at zoom 1). At elevation +-90 up is its limit. Any world is good, sheared and
+/// left-handed ones too. Throws InputError naming the flag where a number of `orbit` is out of range.
 Camera framing_camera(LatticeKind lattice, const Extents& extents, const World& world, const Orbit& orbit, int width,
                       int height);
 
-/// Reads {"eye":[x,y,z],"target":[..],"up":[..],"fov":degrees}; unknown or missing keys are errors (up and fov may be absent).
-/// Throws InputError naming the file.
+/// Reads {"eye":[x,y,z],"target":[..],"up":[..],"fov":degrees}. Up and fov may be absent: those of Camera{}. Any other
+/// missing key, unknown or repeated keys, other types and cameras that see nothing are errors.
+/// Throws InputError naming the file and the key.
 Camera read_camera(const std::string& path);
 
 }  // namespace quincunx

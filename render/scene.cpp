@@ -1,0 +1,59 @@
+#include "render/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+/// An image of more pixels than this does not fit the 32-bit indices of its planes (4 floats a pixel).
+constexpr int kMaxSize = 16384;
+/// A classification holds levels 0..254.
+constexpr std::size_t kMaxIsosurfaces = 254;
+
+/// False for NaN.
+bool within(double x, double low, double high) { return x >= low && x <= high; }
+
+void check_range(double x, double low, double high, std::string_view flag) {
+  if (!within(x, low, high)) throw InputError(fmt::format("{}: {}; expected a number from {} to {}", flag, x, low, high));
+}
+
+void check_color(const glm::dvec3& c, std::string_view flag) {
+  if (!within(c.r, 0.0, 1.0) || !within(c.g, 0.0, 1.0) || !within(c.b, 0.0, 1.0))
+    throw InputError(fmt::format("{}: {} {} {}; expected red, green and blue from 0 to 1", flag, c.r, c.g, c.b));
+}
+
+void check_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
+  if (isosurfaces.empty() || isosurfaces.size() > kMaxIsosurfaces)
+    throw InputError(fmt::format("--iso: {} isovalues; expected 1 to {}", isosurfaces.size(), kMaxIsosurfaces));
+  std::vector<double> values;
+  for (const Isosurface& surface : isosurfaces) {
+    if (!std::isfinite(surface.isovalue))
+      throw InputError(fmt::format("--iso: {}; expected a finite number", surface.isovalue));
+    check_color(surface.color, "--color");
+    check_range(surface.opacity, 0.0, 1.0, "--opacity");
+    values.push_back(surface.isovalue);
+  }
+  std::sort(values.begin(), values.end());
+  const auto twin = std::adjacent_find(values.begin(), values.end());
+  if (twin != values.end()) throw InputError(fmt::format("--iso: {} stands twice; expected different isovalues", *twin));
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+  check_isosurfaces(scene.isosurfaces);
+  if (scene.width < 1 || scene.height < 1 || scene.width > kMaxSize || scene.height > kMaxSize)
+    throw InputError(fmt::format("--size: {} x {}; expected 1 to {} pixels each way", scene.width, scene.height, kMaxSize));
+  camera_frame(scene.camera, scene.width, scene.height, "--camera");
+  check_color(scene.background, "--background");
+  check_range(scene.ambient, 0.0, 1.0, "--ambient");
+  check_range(scene.step, 1e-3, 1e3, "--step");
+  check_range(scene.delta, 1e-3, 1e2, "--delta");
+}
+
+}  // namespace quincunx
