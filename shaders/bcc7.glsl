@@ -1,0 +1,138 @@
+// The seven-direction quartic box spline on the BCC lattice (twin of spline/bcc7.cpp), 32-bit floats.
+//
+// One routine serves all 24 kinds of tetrahedron: E is the cell's all-even corner, `sign` leads from it to the all-odd one,
+// u = sign * (p - E) is in [0,1]^3, and sorting u descending picks the Kuhn tetrahedron. Seen in that order of
+// axes every stencil looks alike, so strides are signed and permuted instead of tables. All values are
+// SPLINE_SCALE times the spline's: the division by 384 never happens.
+#include "bcc7_tables.glsl"
+#include "bernstein.glsl"
+
+const int SPLINE_DEGREE = 4;
+
+// A cell and where its samples are.
+struct SplineCell {
+  vec3 even;     // E relative to the domain's centre
+  vec3 sign;     // +-1
+  ivec3 stride;  // signed numbers of coefficients per lattice step of 2 along each axis
+  int E, O;      // numbers of the corners' coefficients
+};
+
+SplineCell spline_cell(ivec3 cell, vec3 centre) {
+  ivec3 odd = cell & 1;
+  ivec3 e = cell + odd;
+  ivec3 s = 1 - 2 * odd;
+  ivec3 stride = ivec3(1, parameters.strides.xy);
+  ivec3 e2 = e >> 1;
+  ivec3 o2 = (e + s) >> 1;
+  SplineCell c;
+  c.even = vec3(e) - centre;
+  c.sign = vec3(s);
+  c.stride = s * stride;
+  c.E = parameters.strides.w + e2.x + e2.y * stride.y + e2.z * stride.z;
+  c.O = parameters.strides.w + parameters.strides.z + o2.x + o2.y * stride.y + o2.z * stride.z;
+  return c;
+}
+
+// u of the point o + t d, clamped into the cell.
+vec3 cell_point(SplineCell c, vec3 o, vec3 d, float t) {
+  precise vec3 u = c.sign * ((o - c.even) + t * d);
+  return clamp(u, vec3(0.0), vec3(1.0));
+}
+
+// The order of axes in which u descends: which axis comes first and which last.
+struct AxisOrder {
+  bool first_x, first_y, middle_x, middle_y, last_x, last_y;
+};
+AxisOrder axis_order(vec3 u) {
+  bool xy = u.x >= u.y, yz = u.y >= u.z, xz = u.x >= u.z;
+  AxisOrder r;
+  r.first_x = xy && xz;
+  r.first_y = !xy && yz;
+  r.last_x = !xy && !xz;
+  r.last_y = xy && !yz;
+  r.middle_x = !r.first_x && !r.last_x;
+  r.middle_y = !r.first_y && !r.last_y;
+  return r;
+}
+vec3 in_order(AxisOrder r, vec3 v) {
+  return vec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
+              r.last_x ? v.x : (r.last_y ? v.y : v.z));
+}
+ivec3 in_order(AxisOrder r, ivec3 v) {
+  return ivec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
+               r.last_x ? v.x : (r.last_y ? v.y : v.z));
+}
+vec3 out_of_order(AxisOrder r, vec3 v) {
+  return vec3(r.first_x ? v.x : (r.middle_x ? v.y : v.z), r.first_y ? v.x : (r.middle_y ? v.y : v.z),
+              !(r.first_x || r.first_y) ? v.x : (!(r.middle_x || r.middle_y) ? v.y : v.z));
+}
+
+// The ray from entry to exit of a cell: u(tau) = start + tau d, 0 <= tau <= length, crosses the planes between
+// tetrahedra (u_i = u_j) at cut.x <= cut.y <= cut.z; those outside are moved to the end.
+const float SHORTEST_PIECE = 1e-5;
+
+vec3 spline_cuts(vec3 start, vec3 d, float len) {
+  precise vec3 gap = start.yzx - start;
+  vec3 closing = d - d.yzx;
+  precise vec3 tau = mix(vec3(len), gap / closing, greaterThan(abs(closing), vec3(1e-12)));
+  tau = mix(min(tau, vec3(len)), vec3(len), lessThan(tau, vec3(SHORTEST_PIECE)));
+  float low = min(tau.x, min(tau.y, tau.z));
+  float high = max(tau.x, max(tau.y, tau.z));
+  float middle = max(min(tau.x, tau.y), min(max(tau.x, tau.y), tau.z));
+  return vec3(low, middle, high);
+}
+
+// The tetrahedron of u's order: the polynomial's 32 monomial coefficients, in the macros' local variables.
+#define SPLINE_POLYNOMIAL(cell, order)                        \
+  ivec3 spline_stride = in_order(order, (cell).stride);        \
+  BCC7_FETCH((cell).E, (cell).O, spline_stride.x, spline_stride.y, spline_stride.z) \
+  BCC7_MONOMIALS
+
+// Bernstein coefficients (SPLINE_SCALE times, less `offset`) along a..a+d, which lies in the tetrahedron of `order`.
+void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float offset, out float b[5]) {
+  SPLINE_POLYNOMIAL(cell, order)
+  c000 -= offset;
+  vec3 p = in_order(order, a);
+  vec3 q = in_order(order, d);
+  vec3 p1 = p + 0.25 * q, p2 = p + 0.5 * q, p3 = p + 0.75 * q, p4 = p + q;
+  precise float f0 = BCC7_VALUE(p.x, p.y, p.z);
+  precise float f1 = BCC7_VALUE(p1.x, p1.y, p1.z);
+  precise float f2 = BCC7_VALUE(p2.x, p2.y, p2.z);
+  precise float f3 = BCC7_VALUE(p3.x, p3.y, p3.z);
+  precise float f4 = BCC7_VALUE(p4.x, p4.y, p4.z);
+  bernstein_from_values(f0, f1, f2, f3, f4, b);
+}
+
+// SPLINE_SCALE times the value at u, less `offset`.
+float spline_value(SplineCell cell, vec3 u, float offset) {
+  AxisOrder order = axis_order(u);
+  SPLINE_POLYNOMIAL(cell, order)
+  c000 -= offset;
+  vec3 w = in_order(order, u);
+  precise float f = BCC7_VALUE(w.x, w.y, w.z);
+  return f;
+}
+
+// The same at a point of the domain, relative to the domain's centre.
+float spline_value_at(vec3 p, vec3 centre, float offset) {
+  ivec3 at = clamp(ivec3(floor(p + centre)), ivec3(0), parameters.cells.xyz - 1);
+  SplineCell cell = spline_cell(at, centre);
+  return spline_value(cell, cell_point(cell, p, vec3(0.0), 0.0), offset);
+}
+
+#define SPLINE_GRADIENT(w) vec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
+
+// A gradient of any length at u, in lattice coordinates, after one Newton step `t` along d (lattice coordinates)
+// towards the value 0 of the polynomial of `order` less `offset`. A step longer than `longest` is not made.
+void spline_refine(SplineCell cell, AxisOrder order, vec3 u, vec3 d, float offset, float longest, out float t, out vec3 gradient) {
+  SPLINE_POLYNOMIAL(cell, order)
+  c000 -= offset;
+  vec3 w = in_order(order, u);
+  vec3 along = in_order(order, cell.sign * d);
+  precise float f = BCC7_VALUE(w.x, w.y, w.z);
+  vec3 g = SPLINE_GRADIENT(w);
+  t = -f / dot(g, along);
+  t = abs(t) <= longest ? t : 0.0;
+  w += t * along;
+  gradient = cell.sign * out_of_order(order, SPLINE_GRADIENT(w));
+}

@@ -1,0 +1,175 @@
+// First roots: every polynomial piece along the ray in Bernstein form.
+//
+// One flat loop in which each seeking lane looks at one piece a trip, wherever it is on its way; roots are isolated after it.
+// The level is carried along the ray: a value on the other side at the start of a piece means that a root fell
+// to rounding between two pieces, and counts there.
+//
+// No lane leaves a loop before its subgroup does: what a lane found is kept by selection. (Mesa 22.3's lavapipe gives lanes
+// that left a do-while early the values of the last trip; and a masked lane costs it as much as a live one.)
+
+struct Caster {
+  Walk walk;
+  bool live;         // the ray has not ended
+  bool need_cell;    // the current cell is done
+  ivec3 cell;
+  float entry, len;  // of the current cell: where the ray enters, how long it stays
+  float done;        // how far of it has been looked at
+  bool crossed;      // `done` is a hit: the value there is the isovalue, on the side of the level
+#ifdef COST
+  uint evaluations;
+#endif
+};
+
+Caster begin_caster(Ray ray) {
+  Caster caster;
+  caster.walk = begin_walk(ray);
+  caster.live = ray.begin < ray.end;
+  caster.need_cell = true;
+  caster.cell = caster.walk.cell;
+  caster.entry = ray.begin;
+  caster.len = 0.0;
+  caster.done = 0.0;
+  caster.crossed = false;
+#ifdef COST
+  caster.evaluations = 0u;
+#endif
+  return caster;
+}
+
+// Where `wanted`, makes the next cell that may matter the current one, or ends the ray.
+void enter_cell(Ray ray, inout Caster caster, bool wanted) {
+  bool found = find_cell(ray, caster.walk, wanted);
+  ivec3 cell = caster.walk.cell;
+  float leave = exit_time(ray, cell, cell + 1);
+  float entry = caster.walk.t;
+  caster.live = caster.live && (!wanted || found);
+  caster.cell = wanted ? cell : caster.cell;
+  caster.entry = wanted ? entry : caster.entry;
+  caster.len = wanted ? max(min(leave, ray.end) - entry, 0.0) : caster.len;
+  caster.done = wanted ? 0.0 : caster.done;
+  caster.crossed = caster.crossed && !wanted;
+  caster.walk.t = wanted ? leave : caster.walk.t;
+  caster.walk.cell = wanted ? clamp(next_cell(ray, cell, leave), ivec3(0), parameters.cells.xyz - 1) : caster.walk.cell;
+}
+
+// Where the piece that begins at `done` ends.
+float piece_end(vec3 cuts, float len, float done) {
+  float after = done + SHORTEST_PIECE;
+  float end = cuts.z > after ? cuts.z : len;
+  end = cuts.y > after ? cuts.y : end;
+  return cuts.x > after ? cuts.x : end;
+}
+
+// A piece's Bernstein coefficients as distances to an isovalue: positive on the ray's side of it.
+struct Distances {
+  float h0, h1, h2, h3, h4;
+};
+Distances distances(float b[5], float isovalue, bool upwards, bool crossed) {
+  float s = upwards ? -1.0 : 1.0;
+  Distances h = Distances(s * (b[0] - isovalue), s * (b[1] - isovalue), s * (b[2] - isovalue), s * (b[3] - isovalue), s * (b[4] - isovalue));
+  h.h0 = crossed ? max(h.h0, 1e-30) : h.h0;
+  return h;
+}
+// The isovalue itself belongs to the side above it.
+bool may_cross(Distances h, bool upwards) {
+  float least = min(min(h.h0, h.h4), min(h.h1, min(h.h2, h.h3)));
+  return least < 0.0 || (upwards && least == 0.0);
+}
+float root_of(Distances h) { return h.h0 <= 0.0 ? 0.0 : first_root(h.h0, h.h1, h.h2, h.h3, h.h4); }
+
+#if ISOVALUES == 1
+#define EXACT_OFFSET scaled_isovalue(0)
+
+bool piece_may_cross(int level, float b[5], bool crossed) { return may_cross(distances(b, 0.0, level == 0, crossed), level == 0); }
+float piece_root(int level, float b[5], bool crossed, out int surface) {
+  surface = 0;
+  return root_of(distances(b, 0.0, level == 0, crossed));
+}
+#else
+#define EXACT_OFFSET 0.0
+
+bool piece_may_cross(int level, float b[5], bool crossed) {
+  int above = min(level, parameters.cells.w - 1);
+  int below = max(level - 1, 0);
+  bool up = level < parameters.cells.w && may_cross(distances(b, scaled_isovalue(above), true, crossed), true);
+  bool down = level > 0 && may_cross(distances(b, scaled_isovalue(below), false, crossed), false);
+  return up || down;
+}
+// The earlier of the crossings of the next isovalue above and of the one below.
+float piece_root(int level, float b[5], bool crossed, out int surface) {
+  int above = min(level, parameters.cells.w - 1);
+  int below = max(level - 1, 0);
+  Distances up = distances(b, scaled_isovalue(above), true, crossed);
+  Distances down = distances(b, scaled_isovalue(below), false, crossed);
+  float r_up = level < parameters.cells.w && may_cross(up, true) ? root_of(up) : -1.0;
+  float r_down = level > 0 && may_cross(down, false) ? root_of(down) : -1.0;
+  bool take_up = r_up >= 0.0 && (r_down < 0.0 || r_up <= r_down);
+  surface = take_up ? above : below;
+  return take_up ? r_up : r_down;
+}
+#endif
+
+// Where `wanted`, the next hit from where the caster stands; false where there is none.
+bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
+  bool hit = false;
+  bool seeking = wanted && caster.live;
+  float b[5] = float[5](1.0, 1.0, 1.0, 1.0, 1.0);
+  float start = 0.0;
+  float width = 0.0;
+  float reached = 0.0;
+  bool crossed = false;
+  root.surface = 0;
+  do {
+    bool found = false;
+    do {
+      enter_cell(ray, caster, seeking && caster.need_cell);
+      seeking = seeking && caster.live;
+      SplineCell cell = spline_cell(caster.cell, ray.centre);
+      vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
+      vec3 along = cell.sign * ray.d;
+      float end = piece_end(spline_cuts(from, along, caster.len), caster.len, caster.done);
+      float span = end - caster.done;
+      AxisOrder order = axis_order(from + (caster.done + 0.5 * span) * along);
+      float piece[5];
+      spline_restrict(cell, order, from + caster.done * along, span * along, EXACT_OFFSET, piece);
+#ifdef COST
+      caster.evaluations += seeking ? 1u : 0u;
+#endif
+      caster.walk.level = seeking && caster.walk.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.walk.level;
+
+      // Keep the piece where a root may be; go on to the next one elsewhere.
+      found = found || (seeking && piece_may_cross(caster.walk.level, piece, caster.crossed));
+      for (int i = 0; i < 5; ++i) b[i] = seeking ? piece[i] : b[i];
+      start = seeking ? caster.done : start;
+      width = seeking ? span : width;
+      crossed = seeking ? caster.crossed : crossed;
+      caster.done = seeking ? end : caster.done;
+      caster.need_cell = seeking ? !(caster.len > end + 1e-6) : caster.need_cell;
+      caster.crossed = caster.crossed && !seeking;
+      caster.live = caster.live && (!seeking || !caster.need_cell || caster.walk.t < ray.end);
+      seeking = seeking && !found && caster.live;
+    } while (subgroupAny(seeking));
+
+    int surface;
+    float r = piece_root(caster.walk.level, b, crossed, surface);
+    bool is_root = found && r >= 0.0;
+    hit = hit || is_root;
+    root.surface = is_root ? surface : root.surface;
+    reached = is_root ? start + r * width : reached;
+    seeking = found && !is_root && caster.live;
+  } while (subgroupAny(seeking));
+
+  SplineCell cell = spline_cell(caster.cell, ray.centre);
+  root.cell = caster.cell;
+  root.t = caster.entry + reached;
+  root.order = axis_order(cell_point(cell, ray.o, ray.d, caster.entry) + (start + 0.5 * width) * (cell.sign * ray.d));
+#ifdef COMPOSITE
+  // Go on behind the hit, in the same piece.
+  caster.walk.level += hit ? (caster.walk.level == root.surface ? 1 : -1) : 0;
+  caster.done = hit ? reached : caster.done;
+  caster.need_cell = caster.need_cell && !hit;
+  caster.crossed = caster.crossed || hit;
+  caster.live = caster.live || hit;
+#endif
+  return hit;
+}

@@ -1,0 +1,21 @@
+// The isovalues, ascending, with colour and opacity.
+//
+// A place's level is the number of isovalues at or below the value there. Along the ray only two surfaces can be
+// crossed from level L: upwards the isovalue L, downwards the isovalue L - 1.
+layout(std430, binding = 2) readonly buffer Isosurfaces {
+  vec4 isosurface[];  // 2k: scaled isovalue, opacity; 2k + 1: colour
+};
+
+const int LEVEL_UNKNOWN = -1;
+
+float scaled_isovalue(int k) { return isosurface[2 * k].x; }
+
+int level_of(float value) {
+#if ISOVALUES == 1
+  return value >= scaled_isovalue(0) ? 1 : 0;
+#else
+  int level = 0;
+  for (int k = 0; k < parameters.cells.w; ++k) level += value >= scaled_isovalue(k) ? 1 : 0;
+  return level;
+#endif
+}

@@ -1,0 +1,32 @@
+// What the surfaces met so far amount to.
+#include "shade.glsl"
+
+struct Seen {
+  vec3 color;           // premultiplied
+  float transmittance;
+  vec4 first;           // normal and depth of the first hit
+};
+
+Seen nothing_seen() { return Seen(vec3(0.0), 1.0, vec4(0.0, 0.0, 0.0, NO_HIT)); }
+
+// Adds a hit of surface k.
+void see(inout Seen seen, Ray ray, int k, vec3 gradient, float depth) {
+  vec3 normal = facing_normal(ray, gradient);
+  vec3 lit = headlight(isosurface[2 * k + 1].rgb, normal, ray.view);
+#ifdef COMPOSITE
+  float opacity = isosurface[2 * k].y;
+  seen.first = seen.transmittance == 1.0 && seen.first.w == NO_HIT ? vec4(normal, depth) : seen.first;
+  seen.color += seen.transmittance * opacity * lit;
+  seen.transmittance *= 1.0 - opacity;
+#else
+  seen.first = vec4(normal, depth);
+  seen.color = lit;
+  seen.transmittance = 0.0;
+#endif
+}
+
+void write_pixel(ivec2 pixel, Seen seen) {
+  int p = pixel_number(pixel);
+  color[p] = vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance);
+  hit[p] = seen.first;
+}

@@ -1,0 +1,85 @@
+// The walk over the cells that may matter, in the order of the ray.
+#include "skip.glsl"
+
+struct Walk {
+  ivec3 cell;   // to look at next
+  float t;      // where the ray enters it
+  float until;  // how far the structure's last answer reaches
+  bool active;  // that answer
+  int level;    // of the ray so far; LEVEL_UNKNOWN until something told
+#ifdef COST
+  uint steps, intervals;
+#endif
+};
+
+Walk begin_walk(Ray ray) {
+  Walk walk;
+  walk.t = ray.begin;
+  walk.cell = cell_at(ray, ray.begin);
+  walk.until = ray.begin;
+  walk.active = false;
+  walk.level = LEVEL_UNKNOWN;
+#ifdef COST
+  walk.steps = 0u;
+  walk.intervals = 0u;
+#endif
+  return walk;
+}
+
+#ifdef CELL_TEST
+// One bit per cell in bricks of 4x4x4 (accel/classification.h, CellOccupancy): x holds the planes z = 0, 1 of a brick, y z = 2, 3.
+layout(binding = 4) uniform usamplerBuffer occupancy;
+
+uvec2 occupancy_brick(ivec3 cell) {
+  ivec3 brick = cell >> 2;
+  return texelFetch(occupancy, (brick.z * parameters.bricks.y + brick.y) * parameters.bricks.x + brick.x).rg;
+}
+bool occupied(uvec2 brick, ivec3 cell) {
+  ivec3 r = cell & 3;
+  uint word = (r.z & 2) != 0 ? brick.y : brick.x;
+  return ((word >> ((r.z & 1) * 16 + r.y * 4 + r.x)) & 1u) != 0u;
+}
+#endif
+
+// Where `wanted`, moves to the next cell that may matter, from walk.cell on; false where the ray ends before one.
+bool find_cell(Ray ray, inout Walk walk, bool wanted) {
+#if !defined(SKIP) && !defined(CELL_TEST)
+#ifdef COST
+  walk.steps += wanted ? 1u : 0u;
+#endif
+  return wanted && walk.t < ray.end;
+#else
+  bool found = false;
+  bool seeking = wanted && walk.t < ray.end;
+  do {
+    int level = walk.level;
+    float until;
+    bool ask = seeking && walk.t >= walk.until;
+    bool active = skip_probe(ray, walk.cell, walk.t, level, until);
+    walk.active = ask ? active : walk.active;
+    walk.until = ask ? until : walk.until;
+    walk.level = ask ? level : walk.level;
+#ifdef COST
+    walk.intervals += ask && active ? 1u : 0u;
+    walk.steps += seeking ? 1u : 0u;
+#endif
+#ifdef CELL_TEST
+    uvec2 brick = occupancy_brick(walk.cell);
+    found = found || (seeking && walk.active && occupied(brick, walk.cell));
+    bool whole_brick = (brick.x | brick.y) == 0u;
+    ivec3 low = whole_brick ? walk.cell & ~3 : walk.cell;
+    float leave = exit_time(ray, low, min(low + (whole_brick ? 4 : 1), parameters.cells.xyz));
+    leave = walk.active ? min(leave, walk.until) : walk.until;
+#else
+    found = found || (seeking && walk.active);
+    float leave = walk.until;
+#endif
+    bool step = seeking && !found;
+    ivec3 next = cell_at(ray, leave);
+    walk.t = step ? leave : walk.t;
+    walk.cell = step ? next : walk.cell;
+    seeking = step && walk.t < ray.end;
+  } while (subgroupAny(seeking));
+  return found;
+#endif
+}
