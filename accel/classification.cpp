@@ -1,0 +1,33 @@
+#include "accel/classification.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <functional>
+
+#include "accel/thresholds.h"
+
+namespace quincunx {
+
+Classification classify(const BlockBounds& bounds, const CellBounds& scale, std::span<const double> isovalues) {
+  const Thresholds thresholds(scale, isovalues);
+  Classification c;
+  c.block = bounds.block;
+  c.blocks = bounds.blocks;
+  c.level.resize(bounds.min.size());
+  using Blocks = tbb::blocked_range<std::size_t>;
+  c.active_blocks = tbb::parallel_reduce(
+      Blocks(0, c.level.size(), 1 << 14), std::size_t(0),
+      [&](const Blocks& range, std::size_t active) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+          const bool touches = thresholds.touches(bounds.min[n], bounds.max[n]);
+          c.level[n] = touches ? Classification::active : thresholds.below(bounds.min[n]);
+          active += touches;
+        }
+        return active;
+      },
+      std::plus<>());
+  return c;
+}
+
+}  // namespace quincunx

@@ -1,0 +1,68 @@
+// One bit per cell: may it hold a surface?
+#include <tbb/parallel_reduce.h>
+#include <tbb/blocked_range.h>
+
+#include <bit>
+#include <cstring>
+#include <functional>
+
+#include "accel/classification.h"
+#include "accel/thresholds.h"
+
+namespace quincunx {
+namespace {
+
+constexpr std::int64_t kBrick = 4;
+constexpr std::size_t kFewWindows = 8;  // up to here a vectorised comparison with each beats looking up tables
+
+/// mask[x] = 1 where the interval of cell x of a row touches an isovalue, else 0.
+void touching(const Thresholds& thresholds, const std::uint16_t* min, const std::uint16_t* max, std::int64_t n,
+              std::uint8_t* mask) {
+  if (thresholds.windows().size() > kFewWindows) {
+    for (std::int64_t x = 0; x < n; ++x) mask[x] = thresholds.touches(min[x], max[x]);
+    return;
+  }
+  std::memset(mask, 0, std::size_t(n));
+  for (const auto [highest_min, lowest_max] : thresholds.windows())
+    for (std::int64_t x = 0; x < n; ++x) mask[x] |= std::uint8_t((min[x] <= highest_min) & (max[x] >= lowest_max));
+}
+
+/// The lowest bits of 4 bytes as 4 bits. Byte k's bit moves from 8k to 24 + k, and no two products meet.
+std::uint64_t pack(const std::uint8_t* mask) {
+  std::uint32_t bytes;
+  std::memcpy(&bytes, mask, sizeof bytes);
+  if constexpr (std::endian::native == std::endian::big) bytes = __builtin_bswap32(bytes);
+  return bytes * 0x01020408u >> 24 & 0xFu;
+}
+
+}  // namespace
+
+CellOccupancy occupancy(const CellBounds& bounds, std::span<const double> isovalues) {
+  const Thresholds thresholds(bounds, isovalues);
+  CellOccupancy o;
+  o.bricks = (bounds.cells + (kBrick - 1)) / kBrick;
+  o.words.resize(std::size_t(o.bricks.x * o.bricks.y * o.bricks.z));
+
+  using Rows = tbb::blocked_range<std::int64_t>;
+  o.active_cells = tbb::parallel_reduce(
+      Rows(0, o.bricks.y * o.bricks.z, 16), std::size_t(0),
+      [&](const Rows& rows, std::size_t active) {
+        std::vector<std::uint8_t> mask(std::size_t(o.bricks.x * kBrick));  // past the last cell it stays 0
+        for (std::int64_t row = rows.begin(); row != rows.end(); ++row) {
+          std::uint64_t* words = o.words.data() + row * o.bricks.x;
+          for (std::int64_t yz = 0; yz < kBrick * kBrick; ++yz) {
+            const std::int64_t y = row % o.bricks.y * kBrick + yz % kBrick, z = row / o.bricks.y * kBrick + yz / kBrick;
+            if (y >= bounds.cells.y || z >= bounds.cells.z) continue;
+            const std::size_t first = bounds.number({0, y, z});
+            touching(thresholds, bounds.min.data() + first, bounds.max.data() + first, bounds.cells.x, mask.data());
+            for (std::int64_t x = 0; x < o.bricks.x; ++x) words[x] |= pack(mask.data() + x * kBrick) << (4 * yz);
+          }
+          for (std::int64_t x = 0; x < o.bricks.x; ++x) active += std::size_t(std::popcount(words[x]));
+        }
+        return active;
+      },
+      std::plus<>());
+  return o;
+}
+
+}  // namespace quincunx
