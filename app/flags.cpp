@@ -1,0 +1,82 @@
+#include "app/flags.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/values.h"
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+std::string interval_text(const Interval& i) {
+  if (std::isinf(i.high)) return fmt::format("a finite number {} {}", i.open_low ? "above" : "of at least", i.low);
+  return fmt::format("a number {} {} and at most {}", i.open_low ? "above" : "of at least", i.low, i.high);
+}
+
+}  // namespace
+
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, const std::function<void(const std::string&)>& parse,
+                        const std::string& value_name, const std::string& shown_default, const std::string& help) {
+  CLI::Option* option = app.add_option_function<std::string>(flag, parse, help)->type_name(value_name);
+  if (!shown_default.empty()) option->default_str(shown_default);
+  return option;
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& flag, double& value, Interval interval,
+                        const std::string& help) {
+  const auto parse = [&value, flag, interval](const std::string& text) {
+    const double x = parse_number(text, flag);
+    const bool inside = (interval.open_low ? x > interval.low : x >= interval.low) && x <= interval.high;
+    if (!inside) throw InputError(fmt::format("{}: found {}, expected {}", flag, text, interval_text(interval)));
+    value = x;
+  };
+  return add_parsed(app, flag, parse, "NUMBER", fmt::format("{}", value), help);
+}
+
+CLI::Option* add_integer(CLI::App& app, const std::string& flag, int& value, int low, int high,
+                         const std::string& help) {
+  const auto parse = [&value, flag, low, high](const std::string& text) {
+    value = int(parse_integer(text, flag, low, high));
+  };
+  return add_parsed(app, flag, parse, "N", fmt::format("{}", value), help);
+}
+
+CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help) {
+  const auto parse = [&value, flag](const std::vector<std::string>& texts) {
+    for (int axis = 0; axis < 3; ++axis) value[axis] = parse_number(texts[std::size_t(axis)], flag);
+  };
+  return app.add_option_function<std::vector<std::string>>(flag, parse, help)->type_name("X Y Z")->expected(3);
+}
+
+CLI::Option* add_color(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help) {
+  const auto parse = [&value, flag](const std::string& text) { value = parse_color(text, flag); };
+  return add_parsed(app, flag, parse, "COLOR", "", help);
+}
+
+CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string& value,
+                             const std::vector<std::string>& choices, const std::string& help) {
+  const auto parse = [&value, flag, choices](const std::string& text) {
+    check_choice(text, flag, choices);
+    value = text;
+  };
+  return add_parsed(app, flag, parse, choices_text(choices), value, help);
+}
+
+void check_choice(std::string_view text, std::string_view flag, const std::vector<std::string>& choices) {
+  if (std::find(choices.begin(), choices.end(), text) != choices.end()) return;
+  throw InputError(fmt::format("{}: found '{}', expected one of {}", flag, text, fmt::join(choices, ", ")));
+}
+
+std::string choices_text(const std::vector<std::string>& choices) {
+  return fmt::format("{{{}}}", fmt::join(choices, ","));
+}
+
+void add_quiet(CLI::App& app, Verbosity& verbosity) {
+  app.add_flag_callback("--quiet", [&verbosity] { verbosity = Verbosity::quiet; }, "No progress and no summary");
+}
+
+}  // namespace quincunx

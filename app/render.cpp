@@ -1,0 +1,99 @@
+// quincunx render: isosurfaces of a BCC volume to pictures.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/output_file.h"
+#include "app/render_flags.h"
+#include "app/render_report.h"
+#include "app/volume_input.h"
+#include "io/image_file.h"
+
+namespace quincunx {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+/// What a summary needs beside the flags.
+struct Outcome {
+  Json stats;
+  SampleRange range;  ///< of the samples
+};
+
+void write_outputs(const RenderFlags& flags, const Frame& frame, const Json& stats) {
+  const Image image = to_image(frame);
+  for (const std::string& path : flags.images) {
+    stop_if_interrupted();
+    write_image(image, path);
+  }
+  if (!flags.stats.empty()) write_text_file(flags.stats, stats.dump(2) + "\n");
+}
+
+/// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit.
+void print_summary(const RenderFlags& flags, const Outcome& outcome) {
+  const std::string made = flags.images.empty() ? flags.volume : fmt::format("{}", fmt::join(flags.images, ", "));
+  const Json& ms = outcome.stats["trace_ms"]["median"];
+  fmt::print(stderr, "{}: {} of {} rays hit{} on {}\n", made, outcome.stats["hits"].get<std::uint64_t>(),
+             outcome.stats["rays"].get<std::uint64_t>(),
+             ms.is_null() ? "" : fmt::format(", {:.1f} ms a frame", ms.get<double>()),
+             outcome.stats["device"].get<std::string>());
+  if (outcome.stats["hits"] == 0) {
+    fmt::print(stderr, "note: nothing was hit; the samples go from {:g} to {:g}\n", outcome.range.min, outcome.range.max);
+  }
+}
+
+Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Request& request, const Volume& volume,
+              double read_ms, ProgressBar& bar) {
+  RenderStats stats;
+  const Frame frame = renderer.render(request, stats, bar.stage("rendering"));
+  Outcome outcome{stats_json(flags.volume, request, stats, read_ms), sample_range(volume)};
+  write_outputs(flags, frame, outcome.stats);
+  return outcome;
+}
+
+void render(const RenderFlags& flags) {
+  check_render_flags(flags);
+  ProgressBar bar(flags.verbosity);
+  const Clock::time_point start = Clock::now();
+  const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
+  const double read_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+
+  const Renderer::Request request = make_request(flags, volume);
+  const auto renderer = make_renderer(flags.device, volume, flags.config);
+  stop_if_interrupted();
+  Json printed = Json::object();
+  Outcome outcome;
+  if (flags.renders()) {
+    outcome = trace(flags, *renderer, request, volume, read_ms, bar);
+    printed = outcome.stats;
+    printed["images"] = flags.images;
+  }
+  const std::vector<Feature> features = flags.explain ? renderer->explain(request) : std::vector<Feature>{};
+  if (flags.explain) printed["explain"] = explain_json(features);
+
+  bar.erase();
+  if (flags.json) {
+    fmt::print("{}\n", printed.dump(2));
+  } else if (flags.explain) {
+    fmt::print("{}", explain_text(features));
+  }
+  if (flags.renders() && flags.verbosity == Verbosity::normal) print_summary(flags, outcome);
+}
+
+}  // namespace
+
+Command render_command(CLI::App& program) {
+  auto flags = std::make_shared<RenderFlags>();
+  CLI::App* app = program.add_subcommand("render", "Render isosurfaces of a BCC volume");
+  app->footer("Example: quincunx render data/mri_head_bcc.nrrd --iso 130 -o head.png -o head.exr");
+  add_render_flags(*app, *flags);
+  return {app, [flags] { render(*flags); }};
+}
+
+}  // namespace quincunx

@@ -1,0 +1,190 @@
+#include "app/render_flags.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "accel/structure.h"
+#include "app/flags.h"
+#include "app/output_file.h"
+#include "app/values.h"
+#include "io/image_file.h"
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// One colour, or several "#rrggbb" separated by commas.
+void append_colors(const std::string& text, std::vector<glm::dvec3>& colors) {
+  if (!text.starts_with('#')) {
+    colors.push_back(parse_color(text, "--color"));
+    return;
+  }
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    colors.push_back(parse_color(text.substr(start, comma - start), "--color"));
+    start = comma + 1;
+  }
+}
+
+void add_surface_flags(CLI::App& app, RenderFlags& flags) {
+  const auto numbers = [](std::vector<double>& values, const char* flag) {
+    return [&values, flag](const Texts& texts) {
+      for (const std::string& text : texts) {
+        for (const double value : parse_numbers(text, flag)) values.push_back(value);
+      }
+    };
+  };
+  const std::string group = "Surfaces";
+  app.add_option_function<Texts>("--iso", numbers(flags.isovalues, "--iso"), "Isovalues; `quincunx info` helps to choose")
+      ->type_name("V[,V...]")
+      ->allow_extra_args(false)
+      ->group(group);
+  const auto colors = [&flags](const Texts& texts) {
+    for (const std::string& text : texts) append_colors(text, flags.colors);
+  };
+  app.add_option_function<Texts>("--color", colors, "Linear r,g,b of 0..1, or #rrggbb of sRGB; once for all surfaces or once each")
+      ->type_name("COLOR")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option_function<Texts>("--opacity", numbers(flags.opacities, "--opacity"), "0..1, one for all surfaces or one each")
+      ->type_name("V[,V...]")
+      ->allow_extra_args(false)
+      ->group(group);
+  add_number(app, "--ambient", flags.scene.ambient, {0.0, 1.0}, "Part of the colour that no light is needed for")->group(group);
+  add_color(app, "--background", flags.scene.background, "Colour behind everything; else black")->group(group);
+}
+
+void add_output_flags(CLI::App& app, RenderFlags& flags) {
+  const std::string group = "Output";
+  app.add_option("-o,--output", flags.images, "Picture to write: .png for people, .exr with every channel; may stand several times")
+      ->type_name("OUT")
+      ->allow_extra_args(false)
+      ->group(group);
+  const auto size = [&flags](const Texts& texts) {
+    constexpr int most = 16384;
+    flags.scene.width = int(parse_integer(texts[0], "--size", 1, most));
+    flags.scene.height = int(parse_integer(texts[1], "--size", 1, most));
+  };
+  app.add_option_function<Texts>("--size", size, "Pixels")
+      ->type_name("W H")
+      ->expected(2)
+      ->default_str(fmt::format("{} {}", flags.scene.width, flags.scene.height))
+      ->group(group);
+  app.add_flag("--cost", flags.scene.cost, "Also the cost channels in .exr: evaluations, steps, intervals of each pixel")->group(group);
+  app.add_option("--stats", flags.stats, "JSON file of times, bytes and counts to write")->type_name("S.json")->group(group);
+  app.add_flag("--explain", flags.explain, "Print what the kernel contains, what it leaves out, and why")->group(group);
+  app.add_flag("--json", flags.json, "Print the summary (and --explain) as JSON")->group(group);
+  add_quiet(app, flags.verbosity);
+}
+
+void add_method_flags(CLI::App& app, RenderFlags& flags) {
+  const std::string group = "Method";
+  add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
+             "First root of the polynomial pieces, or fixed steps")->group(group);
+  add_number(app, "--step", flags.scene.step, {1e-3, 1e3}, "Of march, in cells")->group(group);
+  add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
+             "The spline's gradient, or central differences")->group(group);
+  add_number(app, "--delta", flags.scene.delta, {1e-3, 1e2}, "Of central, in cells")->group(group);
+  app.add_flag_callback("--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
+                        "Take the samples themselves as coefficients")->group(group);
+  const Texts structures(structure_names().begin(), structure_names().end());
+  add_choice_name(app, "--skip", flags.skip.structure, structures, "How empty space is skipped; changes no pixel")->group(group);
+  const auto block = [&flags](const std::string& text) {
+    const std::int64_t n = parse_integer(text, "--block", 1, 256);
+    if ((n & (n - 1)) != 0) {
+      throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to 256", text));
+    }
+    flags.skip.block = int(n);
+  };
+  add_parsed(app, "--block", block, "N", fmt::format("{}", flags.skip.block), "Edge of the structure's blocks in cells, a power of two")
+      ->group(group);
+  add_choice(app, "--cell-test", flags.skip.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")->group(group);
+  app.add_option("--device", flags.device, "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
+      ->type_name("D")
+      ->group(group);
+  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace; the first of several is a warm-up")->group(group);
+  app.add_flag("--validate", flags.config.validation, "Turn Vulkan's validation layers on; any message is a failure")->group(group);
+}
+
+void check_count(std::size_t found, std::size_t surfaces, const char* flag) {
+  if (found <= 1 || found == surfaces) return;
+  throw InputError(fmt::format("{}: found {} values for {} isovalues, expected one for all or one each", flag, found, surfaces));
+}
+
+void check_outputs(const RenderFlags& flags) {
+  std::set<std::string> seen;
+  for (const std::string& path : flags.images) {
+    check_image_path(path);
+    if (!seen.insert(path).second) throw InputError(fmt::format("-o: found {} twice, expected different files", path));
+  }
+  if (flags.stats.empty()) return;
+  check_output_path(flags.stats);
+  if (seen.contains(flags.stats)) {
+    throw InputError(fmt::format("--stats: found {}, which -o names too, expected different files", flags.stats));
+  }
+}
+
+}  // namespace
+
+void add_render_flags(CLI::App& app, RenderFlags& flags) {
+  app.add_option("VOLUME", flags.volume, "NRRD file of a BCC volume")->required();
+  add_output_flags(app, flags);
+  add_surface_flags(app, flags);
+  add_camera_flags(app, flags.camera);
+  add_method_flags(app, flags);
+}
+
+void check_render_flags(const RenderFlags& flags) {
+  if (flags.isovalues.empty()) {
+    throw InputError("--iso: found none, expected an isovalue; 'quincunx info VOLUME' shows the range and the quantiles");
+  }
+  if (!flags.renders() && !flags.explain) {
+    throw InputError("-o: found nothing to make, expected -o OUT.png or OUT.exr, --stats, --json or --explain");
+  }
+  check_count(flags.colors.size(), flags.isovalues.size(), "--color");
+  check_count(flags.opacities.size(), flags.isovalues.size(), "--opacity");
+  check_camera_flags(flags.camera);
+  check_outputs(flags);
+}
+
+std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
+  // sRGB, from the lowest isovalue (as a rule the outermost surface) inwards; the highest has the last one.
+  constexpr std::array<std::uint32_t, 5> outer{0xE6B08F, 0xC8553D, 0x4F9D69, 0x3F7CAC, 0xE0B34C};
+  constexpr std::uint32_t innermost = 0xF4ECDC;
+  constexpr double outer_opacity = 0.35;
+  const std::size_t count = flags.isovalues.size();
+  std::vector<double> ascending = flags.isovalues;
+  std::sort(ascending.begin(), ascending.end());
+
+  std::vector<Isosurface> surfaces(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    Isosurface& surface = surfaces[n];
+    surface.isovalue = flags.isovalues[n];
+    if (count > 1) {
+      const auto place = std::lower_bound(ascending.begin(), ascending.end(), surface.isovalue);
+      const std::size_t rank = std::size_t(place - ascending.begin());
+      const bool last = rank + 1 == count;
+      surface.color = srgb_color(last ? innermost : outer[rank % outer.size()]);
+      surface.opacity = last ? 1.0 : outer_opacity;
+    }
+    if (!flags.colors.empty()) surface.color = flags.colors[flags.colors.size() == 1 ? 0 : n];
+    if (!flags.opacities.empty()) surface.opacity = flags.opacities[flags.opacities.size() == 1 ? 0 : n];
+  }
+  return surfaces;
+}
+
+Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
+  Renderer::Request request{.scene = flags.scene, .skip = flags.skip, .repeat = flags.repeat,
+                            .count_evaluations = !flags.stats.empty() || flags.json};
+  request.scene.isosurfaces = make_isosurfaces(flags);
+  request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);
+  check_scene(request.scene);
+  return request;
+}
+
+}  // namespace quincunx

@@ -1,0 +1,46 @@
+// The flags of `quincunx render`, and the request they make.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/camera_flags.h"
+#include "app/progress_bar.h"
+#include "render/renderer.h"
+
+namespace quincunx {
+
+struct RenderFlags {
+  std::string volume;
+  std::vector<std::string> images;  ///< -o
+  std::string stats;                ///< --stats, empty for none
+  std::vector<double> isovalues, opacities;
+  std::vector<glm::dvec3> colors;
+  CameraFlags camera;
+  Scene scene;  ///< all but its surfaces and camera
+  SkipConfig skip;
+  Renderer::Config config;
+  std::string device;
+  int repeat = 1;
+  bool explain = false, json = false;
+  Verbosity verbosity = Verbosity::normal;
+
+  /// Whether there is anything to trace for: --explain alone needs no picture.
+  bool renders() const { return !images.empty() || !stats.empty() || (json && !explain); }
+};
+
+void add_render_flags(CLI::App& app, RenderFlags& flags);
+
+/// Throws InputError naming the flag for what can be seen to be wrong before any work: no or equal isovalues, lists of
+/// unequal length, two cameras, nothing to make, a place that cannot be written.
+void check_render_flags(const RenderFlags& flags);
+
+/// The isosurfaces asked for, with colours and opacities of a palette where none is given: several surfaces let the
+/// eye through to the one of the highest isovalue.
+std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags);
+
+/// The request for `volume`. Throws InputError naming the flag.
+Renderer::Request make_request(const RenderFlags& flags, const Volume& volume);
+
+}  // namespace quincunx

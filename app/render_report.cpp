@@ -1,0 +1,117 @@
+#include "app/render_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <span>
+
+namespace quincunx {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Plane {
+  std::vector<std::string> channels;
+  std::span<const float> values;  ///< interleaved; empty where the frame has none
+};
+
+Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+}  // namespace
+
+Image to_image(const Frame& frame) {
+  const std::vector<Plane> planes{{{"R", "G", "B", "A"}, frame.color},
+                                  {{"Z"}, frame.depth},
+                                  {{"N.X", "N.Y", "N.Z"}, frame.normal},
+                                  {{"cost.evaluations", "cost.steps", "cost.intervals"}, frame.cost}};
+  Image image{.width = frame.width, .height = frame.height, .channels = {}, .pixels = {}};
+  for (const Plane& plane : planes) {
+    if (!plane.values.empty()) image.channels.insert(image.channels.end(), plane.channels.begin(), plane.channels.end());
+  }
+  const std::size_t pixels = std::size_t(frame.width) * std::size_t(frame.height);
+  image.pixels.resize(pixels * image.channels.size());
+  std::size_t first = 0;
+  for (const Plane& plane : planes) {
+    if (plane.values.empty()) continue;
+    const std::size_t width = plane.channels.size();
+    assert(plane.values.size() == pixels * width);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      const auto from = plane.values.subspan(p * width, width);
+      std::copy(from.begin(), from.end(), image.pixels.begin() + std::ptrdiff_t(p * image.channels.size() + first));
+    }
+    first += width;
+  }
+  return image;
+}
+
+double percentile(std::vector<double> values, double fraction) {
+  assert(!values.empty() && fraction >= 0.0 && fraction <= 1.0);
+  std::sort(values.begin(), values.end());
+  const double place = fraction * double(values.size() - 1);
+  const std::size_t below = std::size_t(place), above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - double(below));
+}
+
+std::vector<double> timed_frames(const std::vector<double>& trace_ms) {
+  return {trace_ms.begin() + (trace_ms.size() > 1 ? 1 : 0), trace_ms.end()};
+}
+
+Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats,
+                double read_ms) {
+  const Scene& scene = request.scene;
+  const std::vector<double> frames = timed_frames(stats.trace_ms);
+  Json json{{"volume", volume}, {"device", stats.device}, {"size", {scene.width, scene.height}}};
+  for (const Isosurface& surface : scene.isosurfaces) json["isovalues"].push_back(surface.isovalue);
+  json["intersect"] = scene.intersect == Intersect::exact ? "exact" : "march";
+  if (scene.intersect == Intersect::march) json["step"] = scene.step;
+  json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
+  if (scene.normal == Normal::central) json["delta"] = scene.delta;
+  json["structure"] = request.skip.structure;
+  json["block"] = request.skip.block;
+  json["cell_test"] = request.skip.cell_test;
+  json["camera"] = {{"eye", to_json(scene.camera.eye)},
+                    {"target", to_json(scene.camera.target)},
+                    {"up", to_json(scene.camera.up)},
+                    {"fov", scene.camera.fov}};
+  json["trace_ms"]["frames"] = frames.size();
+  for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
+    json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
+  }
+  json["stages_ms"] = {{"read", read_ms},          {"prefilter", stats.prefilter_ms}, {"bounds", stats.bounds_ms},
+                       {"structure", stats.structure_ms}, {"upload", stats.upload_ms},       {"compile", stats.compile_ms}};
+  json["rays"] = stats.rays;
+  json["hits"] = stats.hits;
+  json["evaluations"] = stats.evaluations;
+  json["blocks"] = stats.blocks;
+  json["active_blocks"] = stats.active_blocks;
+  json["active_cells"] = stats.active_cells;
+  json["device_bytes"] = Json::object();
+  for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;
+  return json;
+}
+
+Json explain_json(const std::vector<Feature>& features) {
+  Json json = Json::array();
+  for (const Feature& feature : features) {
+    json.push_back({{"name", feature.name}, {"compiled", feature.compiled}, {"why", feature.why}});
+  }
+  return json;
+}
+
+std::string explain_text(const std::vector<Feature>& features) {
+  if (features.empty()) return "No kernel is compiled: the CPU renders by itself.\n";
+  std::size_t width = 0;
+  for (const Feature& feature : features) width = std::max(width, feature.name.size());
+  std::string text;
+  for (const bool compiled : {true, false}) {
+    for (const Feature& feature : features) {
+      if (feature.compiled != compiled) continue;
+      text += fmt::format("{}  {:<{}}  {}\n", compiled ? "in " : "out", feature.name, width, feature.why);
+    }
+  }
+  return text;
+}
+
+}  // namespace quincunx

@@ -1,0 +1,30 @@
+// What `quincunx render` tells about a frame, and the frame as an image.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/image_file.h"
+#include "render/renderer.h"
+
+namespace quincunx {
+
+/// The frame's planes as channels R G B A Z N.X N.Y N.Z [cost.evaluations cost.steps cost.intervals].
+Image to_image(const Frame& frame);
+
+/// The value below which `fraction` (0..1) of the values lie, between two by linear interpolation; values not empty.
+double percentile(std::vector<double> values, double fraction);
+
+/// The frames that count: all but the first, which warms up, where there are several.
+std::vector<double> timed_frames(const std::vector<double>& trace_ms);
+
+/// The statistics of a render; README, "Statistics", names the keys.
+nlohmann::ordered_json stats_json(const std::string& volume, const Renderer::Request& request,
+                                  const RenderStats& stats, double read_ms);
+
+nlohmann::ordered_json explain_json(const std::vector<Feature>& features);
+/// The features as a table: compiled in first, then left out.
+std::string explain_text(const std::vector<Feature>& features);
+
+}  // namespace quincunx

@@ -1,0 +1,94 @@
+#include "app/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+/// All of `text` as a T in from_chars' notation, a leading '+' allowed; nothing where it is anything else.
+template <class T>
+std::optional<T> parse_all(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+double linear_from_srgb(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+double parse_number(std::string_view text, std::string_view flag) {
+  const std::optional<double> value = parse_all<double>(text);
+  if (!value || !std::isfinite(*value)) {
+    throw InputError(fmt::format("{}: found '{}', expected a finite number", flag, text));
+  }
+  return *value;
+}
+
+std::vector<double> parse_numbers(std::string_view text, std::string_view flag) {
+  std::vector<double> values;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    values.push_back(parse_number(text.substr(start, comma - start), flag));
+    start = comma + 1;
+  }
+  return values;
+}
+
+std::int64_t parse_integer(std::string_view text, std::string_view flag, std::int64_t low, std::int64_t high) {
+  const std::optional<std::int64_t> value = parse_all<std::int64_t>(text);
+  if (!value || *value < low || *value > high) {
+    throw InputError(fmt::format("{}: found '{}', expected an integer from {} to {}", flag, text, low, high));
+  }
+  return *value;
+}
+
+glm::dvec3 parse_color(std::string_view text, std::string_view flag) {
+  const auto refuse = [&] {
+    return InputError(fmt::format("{}: found '{}', expected r,g,b with each from 0 to 1, or #rrggbb", flag, text));
+  };
+  if (text.starts_with('#')) {
+    std::uint32_t rrggbb = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rrggbb, 16);
+    if (text.size() != 7 || error != std::errc() || end != text.data() + text.size()) throw refuse();
+    return srgb_color(rrggbb);
+  }
+  glm::dvec3 color(0.0);
+  std::size_t start = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::size_t end = channel == 2 ? text.size() : text.find(',', start);
+    if (end == std::string_view::npos || start > end) throw refuse();
+    const std::optional<double> value = parse_all<double>(text.substr(start, end - start));
+    if (!value || !(*value >= 0.0 && *value <= 1.0)) throw refuse();
+    color[channel] = *value;
+    start = end + 1;
+  }
+  return color;
+}
+
+glm::dvec3 srgb_color(std::uint32_t rrggbb) {
+  const auto channel = [&](int shift) { return linear_from_srgb(double((rrggbb >> shift) & 255u) / 255.0); };
+  return {channel(16), channel(8), channel(0)};
+}
+
+std::string readable_bytes(double bytes) {
+  constexpr std::array units{"bytes", "KiB", "MiB", "GiB", "TiB", "PiB"};
+  std::size_t unit = 0;
+  while (bytes >= 1024.0 && unit + 1 < units.size()) {
+    bytes /= 1024.0;
+    ++unit;
+  }
+  return unit == 0 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.1f} {}", bytes, units[unit]);
+}
+
+}  // namespace quincunx

@@ -1,0 +1,30 @@
+// Numbers and colours as they stand on the command line.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quincunx {
+
+/// The finite number that is all of `text`. Throws InputError naming `flag`, what was found and what was expected.
+double parse_number(std::string_view text, std::string_view flag);
+
+/// Finite numbers separated by commas, at least one. Throws InputError naming `flag`.
+std::vector<double> parse_numbers(std::string_view text, std::string_view flag);
+
+/// The integer that is all of `text`, low <= it <= high. Throws InputError naming `flag`.
+std::int64_t parse_integer(std::string_view text, std::string_view flag, std::int64_t low, std::int64_t high);
+
+/// "r,g,b" (linear, each 0..1) or "#rrggbb" (sRGB) as linear RGB. Throws InputError naming `flag`.
+glm::dvec3 parse_color(std::string_view text, std::string_view flag);
+
+/// "#rrggbb" of sRGB as linear RGB (IEC 61966-2-1).
+glm::dvec3 srgb_color(std::uint32_t rrggbb);
+
+/// Bytes for people: "3.8 MiB".
+std::string readable_bytes(double bytes);
+
+}  // namespace quincunx
