@@ -23,13 +23,13 @@ const CLI::Option* given(const CameraFlags::Way& way) {
 void add_camera_flags(CLI::App& app, CameraFlags& flags) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::string group = "Camera (one way of the three; none: the volume is framed)";
-  flags.by_file = {app.add_option("--camera", flags.file, "JSON file: {\"eye\":[x,y,z], \"target\":[..], \"up\":[..], \"fov\":degrees}")
+  flags.by_file = {app.add_option("--camera", flags.file,
+                                  "JSON file: {\"eye\":[x,y,z], \"target\":[..], \"up\":[..], \"fov\":degrees}")
                        ->type_name("C.json")};
-  flags.by_orbit = {
-      add_number(app, "--azimuth", flags.orbit.azimuth, {-inf, inf},
-                 "Degrees about the world's z axis; 0 looks along +y"),
-      add_number(app, "--elevation", flags.orbit.elevation, {-90.0, 90.0}, "Degrees above the xy plane"),
-      add_number(app, "--zoom", flags.orbit.zoom, {0.0, inf, true}, "Above 1 comes nearer")};
+  flags.by_orbit = {add_number(app, "--azimuth", flags.orbit.azimuth, {-inf, inf},
+                               "Degrees about the world's z axis; 0 looks along +y"),
+                    add_number(app, "--elevation", flags.orbit.elevation, {-90.0, 90.0}, "Degrees above the xy plane"),
+                    add_number(app, "--zoom", flags.orbit.zoom, {0.0, inf, true}, "Above 1 comes nearer")};
   flags.eye = add_vector(app, "--eye", flags.placed.eye, "Where the eye is (world)");
   flags.target = add_vector(app, "--target", flags.placed.target, "What it looks at; else the volume's centre");
   flags.by_place = {flags.eye, flags.target, add_vector(app, "--up", flags.placed.up, "Upwards; else 0 0 1"),
@@ -44,9 +44,10 @@ void check_camera_flags(const CameraFlags& flags) {
   for (const auto* way : {&flags.by_file, &flags.by_orbit, &flags.by_place}) {
     const CLI::Option* option = given(*way);
     if (option != nullptr && first != nullptr) {
-      throw InputError(fmt::format("{} and {}: found two ways of giving the camera, expected one of --camera, "
-                                   "--azimuth/--elevation/--zoom, --eye/--target/--up/--fov",
-                                   first->get_name(), option->get_name()));
+      throw InputError(
+          fmt::format("{} and {}: found two ways of giving the camera, expected one of --camera, "
+                      "--azimuth/--elevation/--zoom, --eye/--target/--up/--fov",
+                      first->get_name(), option->get_name()));
     }
     if (option != nullptr) first = option;
   }

@@ -5,7 +5,7 @@
 
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/output_file.h"
+#include "io/atomic_file.h"
 #include "io/volume_file.h"
 #include "lattice/error.h"
 #include "lattice/resample.h"
@@ -31,7 +31,7 @@ void add_history(Volume& volume, const std::string& line) {
 
 void convert(const ConvertFlags& flags) {
   const LatticeKind target = parse_lattice(flags.lattice, "--lattice");
-  check_output_path(flags.out);
+  check_writable(flags.out);
   ProgressBar bar(flags.verbosity);
   const Volume volume = read_volume(flags.in, bar.stage("reading"));
   if (volume.lattice == target) {

@@ -44,8 +44,8 @@ class WorldSpline {
     }
   }
 
-  /// Value and gradient per world unit at x (world); NaN outside the domain. A point outside by no more than the rounding
-  /// of its own coordinates counts as on the border.
+  /// Value and gradient per world unit at x (world); NaN outside the domain. A point outside by no more than the
+  /// rounding of its own coordinates counts as on the border.
   Jet operator()(const glm::dvec3& x) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const glm::dvec3 u = inverse_axes_ * (x - origin_);
@@ -130,8 +130,9 @@ Command eval_command(CLI::App& program) {
       ->required();
   add_choice(*app, "--precision", flags->precision,
              {{"double", Precision::exact_double}, {"float", Precision::single_float}}, "Of coefficients and sums");
-  app->add_flag_callback("--no-prefilter", [flags] { flags->prefilter = Spline::Prefilter::none; },
-                         "Take the samples themselves as coefficients");
+  app->add_flag_callback(
+      "--no-prefilter", [flags] { flags->prefilter = Spline::Prefilter::none; },
+      "Take the samples themselves as coefficients");
   add_quiet(*app, flags->verbosity);
   return {app, [flags] { eval(*flags); }};
 }

@@ -10,8 +10,8 @@ Jet evaluate_float(const Spline& spline, const Coefficients<float>& c, const glm
   for (int coset = 0; coset < coset_count(c.lattice); ++coset) {
     const glm::dvec3 at = (u - double(coset)) / double(step);
     const glm::i64vec3 low = glm::max(glm::i64vec3(glm::ceil(at - double(reach) / step)), glm::i64vec3(-c.apron));
-    const glm::i64vec3 high = glm::min(glm::i64vec3(glm::floor(at + double(reach) / step)),
-                                       c.extents + std::int64_t(c.apron - 1));
+    const glm::i64vec3 high =
+        glm::min(glm::i64vec3(glm::floor(at + double(reach) / step)), c.extents + std::int64_t(c.apron - 1));
     for (std::int64_t k = low.z; k <= high.z; ++k) {
       for (std::int64_t j = low.y; j <= high.y; ++j) {
         for (std::int64_t i = low.x; i <= high.x; ++i) {

@@ -76,7 +76,8 @@ std::string choices_text(const std::vector<std::string>& choices) {
 }
 
 void add_quiet(CLI::App& app, Verbosity& verbosity) {
-  app.add_flag_callback("--quiet", [&verbosity] { verbosity = Verbosity::quiet; }, "No progress and no summary");
+  app.add_flag_callback(
+      "--quiet", [&verbosity] { verbosity = Verbosity::quiet; }, "No progress and no summary");
 }
 
 }  // namespace quincunx

@@ -1,8 +1,7 @@
 #include "app/interrupt.h"
 
-#include <csignal>
-
 #include <atomic>
+#include <csignal>
 
 #include "lattice/error.h"
 

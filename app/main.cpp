@@ -33,7 +33,9 @@ std::string explain_parse_error(CLI::App& program, const CLI::ParseError& error)
     const std::vector<std::string> extras = program.remaining(true);
     const auto flag = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with('-'); });
     const std::string& found = flag != extras.end() ? *flag : extras.front();
-    const char* kind = flag != extras.end() ? "unknown flag" : chosen.empty() ? "unknown sub-command" : "unexpected argument";
+    const char* kind = flag != extras.end() ? "unknown flag"
+                       : chosen.empty()     ? "unknown sub-command"
+                                            : "unexpected argument";
     return fmt::format("{} '{}', expected those of '{} --help'", kind, found, command);
   }
   return fmt::format("{}; see '{} --help'", error.what(), command);

@@ -10,8 +10,8 @@ namespace quincunx {
 
 enum class Verbosity { quiet, normal };
 
-/// A line on stderr that shows a stage's name and the part done. It appears once the command has run for a second, and only
-/// where stderr is a terminal; it is erased with the object.
+/// A line on stderr that shows a stage's name and the part done. It appears once the command has run for a second, and
+/// only where stderr is a terminal; it is erased with the object.
 class ProgressBar {
  public:
   explicit ProgressBar(Verbosity verbosity);

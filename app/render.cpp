@@ -5,13 +5,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <span>
 
 #include "app/command.h"
 #include "app/interrupt.h"
-#include "app/output_file.h"
 #include "app/render_flags.h"
 #include "app/render_report.h"
 #include "app/volume_input.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 
 namespace quincunx {
@@ -32,7 +33,11 @@ void write_outputs(const RenderFlags& flags, const Frame& frame, const Json& sta
     stop_if_interrupted();
     write_image(image, path);
   }
-  if (!flags.stats.empty()) write_text_file(flags.stats, stats.dump(2) + "\n");
+  if (flags.stats.empty()) return;
+  const std::string text = stats.dump(2) + "\n";
+  AtomicFile file(flags.stats);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
 }
 
 /// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit.
@@ -44,7 +49,8 @@ void print_summary(const RenderFlags& flags, const Outcome& outcome) {
              ms.is_null() ? "" : fmt::format(", {:.1f} ms a frame", ms.get<double>()),
              outcome.stats["device"].get<std::string>());
   if (outcome.stats["hits"] == 0) {
-    fmt::print(stderr, "note: nothing was hit; the samples go from {:g} to {:g}\n", outcome.range.min, outcome.range.max);
+    fmt::print(stderr, "note: nothing was hit; the samples go from {:g} to {:g}\n", outcome.range.min,
+               outcome.range.max);
   }
 }
 

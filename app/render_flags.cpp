@@ -8,8 +8,8 @@
 
 #include "accel/structure.h"
 #include "app/flags.h"
-#include "app/output_file.h"
 #include "app/values.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "lattice/error.h"
 
@@ -40,28 +40,33 @@ void add_surface_flags(CLI::App& app, RenderFlags& flags) {
     };
   };
   const std::string group = "Surfaces";
-  app.add_option_function<Texts>("--iso", numbers(flags.isovalues, "--iso"), "Isovalues; `quincunx info` helps to choose")
+  app.add_option_function<Texts>("--iso", numbers(flags.isovalues, "--iso"),
+                                 "Isovalues; `quincunx info` helps to choose")
       ->type_name("V[,V...]")
       ->allow_extra_args(false)
       ->group(group);
   const auto colors = [&flags](const Texts& texts) {
     for (const std::string& text : texts) append_colors(text, flags.colors);
   };
-  app.add_option_function<Texts>("--color", colors, "Linear r,g,b of 0..1, or #rrggbb of sRGB; once for all surfaces or once each")
+  app.add_option_function<Texts>("--color", colors,
+                                 "Linear r,g,b of 0..1, or #rrggbb of sRGB; once for all surfaces or once each")
       ->type_name("COLOR")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option_function<Texts>("--opacity", numbers(flags.opacities, "--opacity"), "0..1, one for all surfaces or one each")
+  app.add_option_function<Texts>("--opacity", numbers(flags.opacities, "--opacity"),
+                                 "0..1, one for all surfaces or one each")
       ->type_name("V[,V...]")
       ->allow_extra_args(false)
       ->group(group);
-  add_number(app, "--ambient", flags.scene.ambient, {0.0, 1.0}, "Part of the colour that no light is needed for")->group(group);
+  add_number(app, "--ambient", flags.scene.ambient, {0.0, 1.0}, "Part of the colour that no light is needed for")
+      ->group(group);
   add_color(app, "--background", flags.scene.background, "Colour behind everything; else black")->group(group);
 }
 
 void add_output_flags(CLI::App& app, RenderFlags& flags) {
   const std::string group = "Output";
-  app.add_option("-o,--output", flags.images, "Picture to write: .png for people, .exr with every channel; may stand several times")
+  app.add_option("-o,--output", flags.images,
+                 "Picture to write: .png for people, .exr with every channel; may stand several times")
       ->type_name("OUT")
       ->allow_extra_args(false)
       ->group(group);
@@ -75,8 +80,12 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
       ->expected(2)
       ->default_str(fmt::format("{} {}", flags.scene.width, flags.scene.height))
       ->group(group);
-  app.add_flag("--cost", flags.scene.cost, "Also the cost channels in .exr: evaluations, steps, intervals of each pixel")->group(group);
-  app.add_option("--stats", flags.stats, "JSON file of times, bytes and counts to write")->type_name("S.json")->group(group);
+  app.add_flag("--cost", flags.scene.cost,
+               "Also the cost channels in .exr: evaluations, steps, intervals of each pixel")
+      ->group(group);
+  app.add_option("--stats", flags.stats, "JSON file of times, bytes and counts to write")
+      ->type_name("S.json")
+      ->group(group);
   app.add_flag("--explain", flags.explain, "Print what the kernel contains, what it leaves out, and why")->group(group);
   app.add_flag("--json", flags.json, "Print the summary (and --explain) as JSON")->group(group);
   add_quiet(app, flags.verbosity);
@@ -85,15 +94,20 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
 void add_method_flags(CLI::App& app, RenderFlags& flags) {
   const std::string group = "Method";
   add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
-             "First root of the polynomial pieces, or fixed steps")->group(group);
+             "First root of the polynomial pieces, or fixed steps")
+      ->group(group);
   add_number(app, "--step", flags.scene.step, {1e-3, 1e3}, "Of march, in cells")->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
-             "The spline's gradient, or central differences")->group(group);
+             "The spline's gradient, or central differences")
+      ->group(group);
   add_number(app, "--delta", flags.scene.delta, {1e-3, 1e2}, "Of central, in cells")->group(group);
-  app.add_flag_callback("--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
-                        "Take the samples themselves as coefficients")->group(group);
+  app.add_flag_callback(
+         "--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
+         "Take the samples themselves as coefficients")
+      ->group(group);
   const Texts structures(structure_names().begin(), structure_names().end());
-  add_choice_name(app, "--skip", flags.skip.structure, structures, "How empty space is skipped; changes no pixel")->group(group);
+  add_choice_name(app, "--skip", flags.skip.structure, structures, "How empty space is skipped; changes no pixel")
+      ->group(group);
   const auto block = [&flags](const std::string& text) {
     const std::int64_t n = parse_integer(text, "--block", 1, 256);
     if ((n & (n - 1)) != 0) {
@@ -101,19 +115,25 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
     }
     flags.skip.block = int(n);
   };
-  add_parsed(app, "--block", block, "N", fmt::format("{}", flags.skip.block), "Edge of the structure's blocks in cells, a power of two")
+  add_parsed(app, "--block", block, "N", fmt::format("{}", flags.skip.block),
+             "Edge of the structure's blocks in cells, a power of two")
       ->group(group);
-  add_choice(app, "--cell-test", flags.skip.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")->group(group);
-  app.add_option("--device", flags.device, "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
+  add_choice(app, "--cell-test", flags.skip.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")
+      ->group(group);
+  app.add_option("--device", flags.device,
+                 "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
       ->type_name("D")
       ->group(group);
-  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace; the first of several is a warm-up")->group(group);
-  app.add_flag("--validate", flags.config.validation, "Turn Vulkan's validation layers on; any message is a failure")->group(group);
+  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace; the first of several is a warm-up")
+      ->group(group);
+  app.add_flag("--validate", flags.config.validation, "Turn Vulkan's validation layers on; any message is a failure")
+      ->group(group);
 }
 
 void check_count(std::size_t found, std::size_t surfaces, const char* flag) {
   if (found <= 1 || found == surfaces) return;
-  throw InputError(fmt::format("{}: found {} values for {} isovalues, expected one for all or one each", flag, found, surfaces));
+  throw InputError(
+      fmt::format("{}: found {} values for {} isovalues, expected one for all or one each", flag, found, surfaces));
 }
 
 void check_outputs(const RenderFlags& flags) {
@@ -123,7 +143,7 @@ void check_outputs(const RenderFlags& flags) {
     if (!seen.insert(path).second) throw InputError(fmt::format("-o: found {} twice, expected different files", path));
   }
   if (flags.stats.empty()) return;
-  check_output_path(flags.stats);
+  check_writable(flags.stats);
   if (seen.contains(flags.stats)) {
     throw InputError(fmt::format("--stats: found {}, which -o names too, expected different files", flags.stats));
   }
@@ -141,7 +161,8 @@ void add_render_flags(CLI::App& app, RenderFlags& flags) {
 
 void check_render_flags(const RenderFlags& flags) {
   if (flags.isovalues.empty()) {
-    throw InputError("--iso: found none, expected an isovalue; 'quincunx info VOLUME' shows the range and the quantiles");
+    throw InputError(
+        "--iso: found none, expected an isovalue; 'quincunx info VOLUME' shows the range and the quantiles");
   }
   if (!flags.renders() && !flags.explain) {
     throw InputError("-o: found nothing to make, expected -o OUT.png or OUT.exr, --stats, --json or --explain");
@@ -179,7 +200,9 @@ std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
 }
 
 Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
-  Renderer::Request request{.scene = flags.scene, .skip = flags.skip, .repeat = flags.repeat,
+  Renderer::Request request{.scene = flags.scene,
+                            .skip = flags.skip,
+                            .repeat = flags.repeat,
                             .count_evaluations = !flags.stats.empty() || flags.json};
   request.scene.isosurfaces = make_isosurfaces(flags);
   request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);

@@ -28,7 +28,8 @@ Image to_image(const Frame& frame) {
                                   {{"cost.evaluations", "cost.steps", "cost.intervals"}, frame.cost}};
   Image image{.width = frame.width, .height = frame.height, .channels = {}, .pixels = {}};
   for (const Plane& plane : planes) {
-    if (!plane.values.empty()) image.channels.insert(image.channels.end(), plane.channels.begin(), plane.channels.end());
+    if (!plane.values.empty())
+      image.channels.insert(image.channels.end(), plane.channels.begin(), plane.channels.end());
   }
   const std::size_t pixels = std::size_t(frame.width) * std::size_t(frame.height);
   image.pixels.resize(pixels * image.channels.size());
@@ -58,8 +59,7 @@ std::vector<double> timed_frames(const std::vector<double>& trace_ms) {
   return {trace_ms.begin() + (trace_ms.size() > 1 ? 1 : 0), trace_ms.end()};
 }
 
-Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats,
-                double read_ms) {
+Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats, double read_ms) {
   const Scene& scene = request.scene;
   const std::vector<double> frames = timed_frames(stats.trace_ms);
   Json json{{"volume", volume}, {"device", stats.device}, {"size", {scene.width, scene.height}}};
@@ -79,8 +79,9 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
     json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
   }
-  json["stages_ms"] = {{"read", read_ms},          {"prefilter", stats.prefilter_ms}, {"bounds", stats.bounds_ms},
-                       {"structure", stats.structure_ms}, {"upload", stats.upload_ms},       {"compile", stats.compile_ms}};
+  json["stages_ms"] = {{"read", read_ms},           {"prefilter", stats.prefilter_ms},
+                       {"bounds", stats.bounds_ms}, {"structure", stats.structure_ms},
+                       {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
   json["rays"] = stats.rays;
   json["hits"] = stats.hits;
   json["evaluations"] = stats.evaluations;

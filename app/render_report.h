@@ -20,8 +20,8 @@ double percentile(std::vector<double> values, double fraction);
 std::vector<double> timed_frames(const std::vector<double>& trace_ms);
 
 /// The statistics of a render; README, "Statistics", names the keys.
-nlohmann::ordered_json stats_json(const std::string& volume, const Renderer::Request& request,
-                                  const RenderStats& stats, double read_ms);
+nlohmann::ordered_json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats,
+                                  double read_ms);
 
 nlohmann::ordered_json explain_json(const std::vector<Feature>& features);
 /// The features as a table: compiled in first, then left out.

@@ -6,8 +6,8 @@
 
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/output_file.h"
 #include "app/values.h"
+#include "io/atomic_file.h"
 #include "io/volume_file.h"
 #include "lattice/field.h"
 #include "lattice/memory.h"
@@ -28,7 +28,7 @@ void sample(const SampleFlags& flags) {
   const auto field = make_field(flags.field, unsigned(flags.seed));
   const std::uint64_t count = checked_sample_count(lattice, flags.extents, SampleType::float32, "--dims");
   check_fits_memory(count * sample_type_bytes(SampleType::float32), "--dims");
-  check_output_path(flags.out);
+  check_writable(flags.out);
 
   ProgressBar bar(flags.verbosity);
   Volume volume = sample_field(*field, lattice, flags.extents, bar.stage("sampling"));

@@ -30,9 +30,10 @@ std::string place_text(const Volume& volume, std::size_t number) {
 Volume read_bcc_volume(const std::string& path, const Progress& progress) {
   Volume volume = read_volume(path, progress);
   if (volume.lattice != LatticeKind::bcc) {
-    throw InputError(fmt::format("{}: found a Cartesian volume, expected a BCC one; make one of its even and odd points: "
-                                 "quincunx convert {} {} --lattice bcc",
-                                 path, shell_quoted(path), shell_quoted(bcc_path(path))));
+    throw InputError(
+        fmt::format("{}: found a Cartesian volume, expected a BCC one; make one of its even and odd points: "
+                    "quincunx convert {} {} --lattice bcc",
+                    path, shell_quoted(path), shell_quoted(bcc_path(path))));
   }
   const SampleRange range = sample_range(volume);
   if (range.not_finite > 0) {
@@ -44,8 +45,9 @@ Volume read_bcc_volume(const std::string& path, const Progress& progress) {
 }
 
 std::string shell_quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                             "0123456789_-+=./:,@%") == std::string::npos;
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-+=./:,@%") == std::string::npos;
   if (plain) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
