@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs every test; the last line says how many passed and failed.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+./setup.sh
+cmake/build.sh
+results=$PWD/build/release/tests.xml
+rm -f "$results"
+status=0
+ctest --preset release --output-junit "$results" </dev/null || status=$?
+
+if [[ ! -s $results ]]; then
+  echo "test.sh: ctest ended with status $status and without results" >&2
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+
+# Counted case by case: the totals of the file take a test whose program is missing for a skipped one.
+count() { grep -c -- "$1" "$results" || true; }
+total=$(count '^[[:space:]]*<testcase ')
+passed=$(count '^[[:space:]]*<testcase .*status="run"')
+skipped=$(count '^[[:space:]]*<skipped message="SKIP_')
+disabled=$(count '^[[:space:]]*<testcase .*status="disabled"')
+failed=$((total - passed - skipped - disabled))
+if ((total == 0)); then
+  echo "test.sh: found no tests" >&2
+  status=1
+fi
+((skipped + disabled == 0)) || echo "$((skipped + disabled)) skipped"
+echo "$passed passed, $failed failed"
+exit "$status"
