@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quincunx {
@@ -11,14 +12,23 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< "R", "G", "B", "A", "Z", "N.X", ...
   std::vector<float> pixels;
+
+  /// The number of the channel of that name, -1 where there is none.
+  int channel(std::string_view name) const;
 };
 
-/// Writes OpenEXR (32-bit float, every channel) or PNG (8-bit sRGB of R G B A, un-premultiplied not needed: over the
-/// background already) by the path's extension, whole or not at all: beside, then renamed.
-/// Throws InputError for another extension or a place that cannot be written.
+/// Writes an image by the path's extension, whole or not at all: beside, then renamed. The same image always makes
+/// the same bytes.
+///   .exr  OpenEXR, 32-bit float, zip; every channel under its name, every value as it is (infinite ones too)
+///   .png  8-bit sRGB of the linear channels R G B, clamped to 0..1, not a number as 0; other channels are left out. Where there
+///         is a channel A, the colours are taken as multiplied by it and PNG's straight alpha is made: what is shown then
+///         depends on what the viewer puts behind. Leave A out for an opaque picture over its own background.
+/// Throws InputError for another extension, a place that cannot be written, or channels that do not fit.
 void write_image(const Image& image, const std::string& path);
 
-/// Reads any image OpenImageIO knows as float32. Throws InputError.
+/// Reads any image OpenImageIO knows as float32; integers come as 0..1 without any change of their transfer or alpha.
+/// The channels' order is OpenImageIO's (R G B A first), not that in which they were written: find them by name.
+/// Throws InputError.
 Image read_image(const std::string& path);
 
 /// Throws InputError unless write_image could write `path` now (extension known, folder there and writable):

@@ -8,8 +8,8 @@
 
 namespace quincunx {
 
-/// coset_count * nx*ny*nz. Throws InputError, naming `what` (a file or a flag), unless every extent is at least 1 and the
-/// samples' bytes are fewer than 2^62.
+/// coset_count * nx*ny*nz. Throws InputError, naming `what` (a file or a flag), unless every extent is at least 1 and
+/// the samples' bytes are fewer than 2^62.
 std::uint64_t checked_sample_count(LatticeKind lattice, const Extents& extents, SampleType type, std::string_view what);
 
 /// Throws InputError, naming `what`, where `bytes` are more than this machine's memory.
