@@ -7,7 +7,7 @@
 #include "bcc7_tables.glsl"
 #include "bernstein.glsl"
 
-const int SPLINE_DEGREE = 4;
+const float SPLINE_SCALE = 384.0;
 
 // A cell and where its samples are.
 struct SplineCell {

@@ -3,19 +3,21 @@
 // A place's level is the number of isovalues at or below the value there. Along the ray only two surfaces can be
 // crossed from level L: upwards the isovalue L, downwards the isovalue L - 1.
 layout(std430, binding = 2) readonly buffer Isosurfaces {
-  vec4 isosurface[];  // 2k: scaled isovalue, opacity; 2k + 1: colour
+  vec4 isosurface[];  // 2k: isovalue, opacity; 2k + 1: colour
 };
 
 const int LEVEL_UNKNOWN = -1;
 
-float scaled_isovalue(int k) { return isosurface[2 * k].x; }
+// Kernels compute SPLINE_SCALE times the spline's values.
+float scaled_isovalue(int k) { return SPLINE_SCALE * isosurface[2 * k].x; }
 
-int level_of(float value) {
 #if ISOVALUES == 1
-  return value >= scaled_isovalue(0) ? 1 : 0;
+int level_of(float value) { return value >= scaled_isovalue(0) ? 1 : 0; }
 #else
-  int level = 0;
-  for (int k = 0; k < parameters.cells.w; ++k) level += value >= scaled_isovalue(k) ? 1 : 0;
-  return level;
-#endif
+int count_isovalues(float value) {
+  int count = 0;
+  for (int k = 0; k < parameters.cells.w; ++k) count += value >= scaled_isovalue(k) ? 1 : 0;
+  return count;
 }
+int level_of(float value) { return count_isovalues(value); }
+#endif

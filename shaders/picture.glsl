@@ -26,3 +26,9 @@ ivec2 lane_pixel() {
 }
 bool in_picture(ivec2 pixel) { return pixel.x < parameters.picture.x && pixel.y < min(parameters.picture.y, parameters.picture.z + parameters.picture.w); }
 int pixel_number(ivec2 pixel) { return (pixel.y - parameters.picture.z) * parameters.picture.x + pixel.x; }
+
+#ifdef COST
+void count_cost(ivec2 pixel, uint evaluations, uint steps, uint intervals) {
+  cost[pixel_number(pixel)] = vec4(float(evaluations), float(steps), float(intervals), 0.0);
+}
+#endif

@@ -9,7 +9,7 @@ bool skip_probe(Ray ray, ivec3 cell, float t, inout int level, out float until) 
   uint found = texelFetch(gridLevel, (block.z * parameters.blocks.y + block.y) * parameters.blocks.x + block.x).r;
   ivec3 low = block << BLOCK_SHIFT;
   until = exit_time(ray, low, min(low + (1 << BLOCK_SHIFT), parameters.cells.xyz));
-  bool active = found == GRID_ACTIVE;
-  level = active ? level : int(found);
-  return active;
+  bool matters = found == GRID_ACTIVE;
+  level = matters ? level : int(found);
+  return matters;
 }

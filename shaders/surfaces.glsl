@@ -9,15 +9,21 @@ struct Seen {
 
 Seen nothing_seen() { return Seen(vec3(0.0), 1.0, vec4(0.0, 0.0, 0.0, NO_HIT)); }
 
+#ifdef COMPOSITE
+// Front to back.
+void composite(inout Seen seen, vec3 lit, float opacity, vec4 hit_here) {
+  seen.first = seen.first.w == NO_HIT ? hit_here : seen.first;
+  seen.color += seen.transmittance * opacity * lit;
+  seen.transmittance *= 1.0 - opacity;
+}
+#endif
+
 // Adds a hit of surface k.
 void see(inout Seen seen, Ray ray, int k, vec3 gradient, float depth) {
   vec3 normal = facing_normal(ray, gradient);
   vec3 lit = headlight(isosurface[2 * k + 1].rgb, normal, ray.view);
 #ifdef COMPOSITE
-  float opacity = isosurface[2 * k].y;
-  seen.first = seen.transmittance == 1.0 && seen.first.w == NO_HIT ? vec4(normal, depth) : seen.first;
-  seen.color += seen.transmittance * opacity * lit;
-  seen.transmittance *= 1.0 - opacity;
+  composite(seen, lit, isosurface[2 * k].y, vec4(normal, depth));
 #else
   seen.first = vec4(normal, depth);
   seen.color = lit;

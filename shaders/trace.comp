@@ -34,7 +34,7 @@ void main() {
   if (inside) {
     write_pixel(pixel, seen);
 #ifdef COST
-    cost[pixel_number(pixel)] = vec4(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals), 0.0);
+    count_cost(pixel, caster.evaluations, caster.walk.steps, caster.walk.intervals);
 #endif
   }
 }

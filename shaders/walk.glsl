@@ -5,7 +5,7 @@ struct Walk {
   ivec3 cell;   // to look at next
   float t;      // where the ray enters it
   float until;  // how far the structure's last answer reaches
-  bool active;  // that answer
+  bool matters;  // that answer
   int level;    // of the ray so far; LEVEL_UNKNOWN until something told
 #ifdef COST
   uint steps, intervals;
@@ -17,7 +17,7 @@ Walk begin_walk(Ray ray) {
   walk.t = ray.begin;
   walk.cell = cell_at(ray, ray.begin);
   walk.until = ray.begin;
-  walk.active = false;
+  walk.matters = false;
   walk.level = LEVEL_UNKNOWN;
 #ifdef COST
   walk.steps = 0u;
@@ -55,23 +55,23 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
     int level = walk.level;
     float until;
     bool ask = seeking && walk.t >= walk.until;
-    bool active = skip_probe(ray, walk.cell, walk.t, level, until);
-    walk.active = ask ? active : walk.active;
+    bool matters = skip_probe(ray, walk.cell, walk.t, level, until);
+    walk.matters = ask ? matters : walk.matters;
     walk.until = ask ? until : walk.until;
     walk.level = ask ? level : walk.level;
 #ifdef COST
-    walk.intervals += ask && active ? 1u : 0u;
+    walk.intervals += ask && matters ? 1u : 0u;
     walk.steps += seeking ? 1u : 0u;
 #endif
 #ifdef CELL_TEST
     uvec2 brick = occupancy_brick(walk.cell);
-    found = found || (seeking && walk.active && occupied(brick, walk.cell));
+    found = found || (seeking && walk.matters && occupied(brick, walk.cell));
     bool whole_brick = (brick.x | brick.y) == 0u;
     ivec3 low = whole_brick ? walk.cell & ~3 : walk.cell;
     float leave = exit_time(ray, low, min(low + (whole_brick ? 4 : 1), parameters.cells.xyz));
-    leave = walk.active ? min(leave, walk.until) : walk.until;
+    leave = walk.matters ? min(leave, walk.until) : walk.until;
 #else
-    found = found || (seeking && walk.active);
+    found = found || (seeking && walk.matters);
     float leave = walk.until;
 #endif
     bool step = seeking && !found;

@@ -1,0 +1,308 @@
+#include "render/device_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "lattice/error.h"
+#include "render/stopwatch.h"
+
+namespace quincunx {
+namespace {
+
+constexpr int kTile = 8;                     // pixels of a group's edge
+constexpr int kMaxCoefficientBuffers = 8;    // bindings of coefficients.glsl
+constexpr std::int64_t kBandPixels = 1 << 22;  // of one dispatch at most, so that progress and Ctrl-C come through
+constexpr std::uint64_t kPixelBytes = 16;
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& v) {
+  return std::as_bytes(std::span<const T>(v));
+}
+
+/// The isosurfaces that leave a trace in the picture, by ascending isovalue.
+std::vector<Isosurface> visible_surfaces(const Scene& scene) {
+  std::vector<Isosurface> surfaces = scene.isosurfaces;
+  std::erase_if(surfaces, [](const Isosurface& s) { return s.opacity == 0.0; });
+  std::sort(surfaces.begin(), surfaces.end(), [](const Isosurface& a, const Isosurface& b) { return a.isovalue < b.isovalue; });
+  return surfaces;
+}
+
+gpu::Buffer upload_new(gpu::Device& device, std::span<const std::byte> bytes, gpu::BufferUse use, const std::string& label,
+                       VkFormat format = VK_FORMAT_UNDEFINED) {
+  gpu::Buffer buffer = gpu::create_buffer(device, bytes.size(), use, label, format);
+  if (!bytes.empty()) gpu::upload(device, buffer, bytes);
+  return buffer;
+}
+
+void check_block(int block) {
+  if (block < 1 || block > 256 || !std::has_single_bit(unsigned(block)))
+    throw InputError(fmt::format("--block: {}; expected a power of two from 1 to 256", block));
+}
+
+}  // namespace
+
+DeviceRenderer::DeviceRenderer(std::shared_ptr<gpu::Device> device, const Volume& volume, const Config& config, const DeviceLimits& limits)
+    : device_(std::move(device)), config_(config), limits_(limits), spline_(make_spline(config.spline)), volume_(volume) {
+  const gpu::DeviceInfo& device_info = gpu::info(*device_);
+  if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
+  if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
+}
+
+// ---- what a request needs ----
+
+bool DeviceRenderer::uses_cells(const Request& request) const { return request.skip.structure != "none" && request.skip.cell_test; }
+
+DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
+  const glm::i64vec3 p = volume_.extents + std::int64_t(2 * spline_->apron());
+  const std::uint64_t count = std::uint64_t(coset_count(volume_.lattice)) * p.x * p.y * p.z;
+  if (count > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
+    throw InputError(fmt::format("volume: {} coefficients with their border; expected at most 2^31 - 1", count));
+  if (count <= limits_.texel_elements) return {};
+  const int shift = std::bit_width(limits_.texel_elements) - 1;
+  const std::uint64_t buffers = (count + (std::uint64_t(1) << shift) - 1) >> shift;
+  if (buffers > kMaxCoefficientBuffers)
+    throw gpu::DeviceError(fmt::format("{}: {} coefficients need {} texel buffers of 2^{} elements; expected at most {}",
+                                       gpu::info(*device_).name, count, buffers, shift, kMaxCoefficientBuffers));
+  return {int(buffers), shift};
+}
+
+KernelVariant DeviceRenderer::variant(const Request& request) const {
+  const std::vector<Isosurface> surfaces = visible_surfaces(request.scene);
+  const std::unique_ptr<SkippingStructure> structure = make_structure(request.skip.structure);
+  const CoefficientLayout layout = coefficient_layout();
+  KernelVariant v;
+  v.spline_shader = spline_->shader();
+  v.structure = structure->name();
+  v.structure_shader = structure->shader();
+  v.cell_test = uses_cells(request);
+  v.intersect = request.scene.intersect;
+  v.normal = request.scene.normal;
+  v.many_isovalues = surfaces.size() > 1;
+  v.composite = std::any_of(surfaces.begin(), surfaces.end(), [](const Isosurface& s) { return s.opacity < 1.0; });
+  v.cost = request.scene.cost;
+  v.coefficient_buffers = layout.buffers;
+  v.coefficient_shift = layout.shift;
+  return v;
+}
+
+std::vector<Feature> DeviceRenderer::explain(const Request& request) {
+  std::vector<Feature> features;
+  for (const KernelPart& part : kernel_parts(variant(request))) features.push_back(part.feature);
+  features.push_back({"prefilter pass", config_.prefilter != Spline::Prefilter::none,
+                      config_.prefilter != Spline::Prefilter::none ? "quasi-interpolation of full order" : "--no-prefilter: the samples are the coefficients"});
+  return features;
+}
+
+// ---- stages, each done only when what it depends on has changed ----
+
+void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& progress) {
+  if (coefficients_) return;
+  const CoefficientLayout layout = coefficient_layout();
+  const Stopwatch prefilter;
+  coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, progress);
+  stats.prefilter_ms = prefilter.ms();
+  volume_.samples = {};
+
+  const Stopwatch upload;
+  const std::span<const float> all(coefficients_->data);
+  const std::size_t each = layout.buffers == 1 ? all.size() : std::size_t(1) << layout.shift;
+  for (int i = 0; i < layout.buffers; ++i) {
+    const std::span<const float> part = all.subspan(i * each, std::min(each, all.size() - i * each));
+    // Kernels read every buffer at every number: all are of one length.
+    gpu::Buffer buffer = gpu::create_buffer(*device_, each * sizeof(float), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT);
+    gpu::upload(*device_, buffer, std::as_bytes(part));
+    coefficient_buffers_.push_back(std::move(buffer));
+  }
+  stats.upload_ms += upload.ms();
+}
+
+void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress) {
+  if (cells_ || request.skip.structure == "none") return;
+  const Stopwatch watch;
+  cells_ = bcc7_bounds(*coefficients_, progress);
+  stats.bounds_ms = watch.ms();
+}
+
+void DeviceRenderer::prepare_structure(const Request& request, const std::vector<double>& isovalues, RenderStats& stats) {
+  const Built wanted{request.skip.structure, request.skip.block, uses_cells(request), isovalues};
+  if (structure_ && built_ == wanted) return;
+
+  const Stopwatch build;
+  structure_ = make_structure(request.skip.structure);
+  Classification classification;
+  CellOccupancy cell_bits;
+  if (structure_->needs_classification()) {
+    if (!blocks_ || blocks_->block != request.skip.block) blocks_ = block_bounds(*cells_, request.skip.block);
+    classification = classify(*blocks_, *cells_, isovalues);
+    structure_->build(classification);
+  }
+  if (wanted.cell_test) cell_bits = occupancy(*cells_, isovalues);
+  stats.structure_ms = build.ms();
+
+  const Stopwatch upload;
+  structure_buffers_.clear();
+  for (const StructureBuffer& buffer : structure_->buffers())
+    structure_buffers_.emplace_back(buffer.name, upload_new(*device_, buffer.bytes, gpu::BufferUse::texel, buffer.name, VK_FORMAT_R8_UINT));
+  occupancy_ = wanted.cell_test ? upload_new(*device_, bytes_of(cell_bits.words), gpu::BufferUse::texel, "occupancy", VK_FORMAT_R32G32_UINT)
+                                : gpu::Buffer{};
+  stats.upload_ms += upload.ms();
+  block_count_ = classification.level.size();
+  active_blocks_ = classification.active_blocks;
+  active_cells_ = cell_bits.active_cells;
+  block_extents_ = classification.blocks;
+  brick_extents_ = cell_bits.bricks;
+  built_ = wanted;
+}
+
+void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
+  std::vector<float> data;
+  for (const Isosurface& s : isosurfaces) {
+    data.insert(data.end(), {float(s.isovalue), float(s.opacity), 0.0f, 0.0f});
+    data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
+  }
+  isosurfaces_ = upload_new(*device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
+}
+
+const gpu::Pipeline& DeviceRenderer::pipeline(const KernelVariant& v, int block, RenderStats& stats) {
+  const std::pair key(v, v.structure == "none" ? 0 : block);
+  const auto found = pipelines_.find(key);
+  if (found != pipelines_.end()) return found->second;
+  const Stopwatch watch;
+  const std::vector<std::uint32_t> spirv = gpu::compile(*device_, kernel_files(v), kernel_source(v));
+  std::vector<std::pair<std::string, std::uint32_t>> constants;
+  if (v.structure != "none") constants.emplace_back("BLOCK_SHIFT", std::uint32_t(std::countr_zero(unsigned(block))));
+  gpu::Pipeline made = gpu::create_pipeline(*device_, spirv, constants);
+  stats.compile_ms += watch.ms();
+  return pipelines_.emplace(key, std::move(made)).first->second;
+}
+
+// ---- pictures ----
+
+DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
+  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / kPixelBytes));
+  const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / scene.width / kTile * kTile);
+  Band band;
+  band.rows = int(std::min<std::int64_t>(rows, scene.height));
+  const std::uint64_t bytes = std::uint64_t(band.rows) * scene.width * kPixelBytes;
+  band.color = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "color");
+  band.hit = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "hit");
+  if (cost) band.cost = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "cost");
+  return band;
+}
+
+gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
+  gpu::Resources all = structure_buffers_;
+  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"occupancy", occupancy_},
+                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}});
+  for (std::size_t i = 0; i < coefficient_buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), coefficient_buffers_[i]);
+  // What the variant leaves out is not bound.
+  std::erase_if(all, [&](const auto& resource) {
+    return std::none_of(pipeline.reflection.bindings.begin(), pipeline.reflection.bindings.end(),
+                        [&](const gpu::Binding& b) { return b.name == resource.first; });
+  });
+  return all;
+}
+
+double DeviceRenderer::trace(const gpu::Pipeline& pipeline, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
+  TraceParameters p = trace_parameters(scene, *coefficients_);
+  p.blocks = ivec4(glm::ivec3(block_extents_), 0);
+  p.bricks = ivec4(glm::ivec3(brick_extents_), 0);
+  parameters_ = gpu::create_buffer(*device_, sizeof p, gpu::BufferUse::uniform, "parameters");
+  const gpu::Resources bound = resources(pipeline, band);
+  double ms = 0.0;
+  for (int row = 0; row < scene.height; row += band.rows) {
+    const int rows = std::min(band.rows, scene.height - row);
+    p.picture = ivec4(scene.width, scene.height, row, rows);
+    gpu::upload(*device_, parameters_, std::as_bytes(std::span(&p, 1)));
+    ms += gpu::dispatch(*device_, pipeline, bound, {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+    if (frame) read_band(band, row, rows, *frame);
+    report(progress, double(row + rows) / scene.height);
+  }
+  return ms;
+}
+
+void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame) {
+  const std::size_t first = std::size_t(row) * frame.width, count = std::size_t(rows) * frame.width;
+  gpu::download(*device_, band.color, std::as_writable_bytes(std::span(frame.color).subspan(4 * first, 4 * count)));
+  std::vector<glm::vec4> pixels(count);
+  gpu::download(*device_, band.hit, std::as_writable_bytes(std::span(pixels)));
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int a = 0; a < 3; ++a) frame.normal[3 * (first + i) + a] = pixels[i][a];
+    frame.depth[first + i] = pixels[i].w;
+  }
+  if (frame.cost.empty()) return;
+  gpu::download(*device_, band.cost, std::as_writable_bytes(std::span(pixels)));
+  for (std::size_t i = 0; i < count; ++i)
+    for (int a = 0; a < 3; ++a) frame.cost[3 * (first + i) + a] = pixels[i][a];
+}
+
+std::uint64_t DeviceRenderer::count_evaluations(Request request, const Progress& progress) {
+  request.scene.cost = true;
+  RenderStats unused;
+  const gpu::Pipeline& counting = pipeline(variant(request), request.skip.block, unused);
+  Band band = make_band(request.scene, true);
+  Frame frame = empty_frame(request.scene);
+  trace(counting, request.scene, band, &frame, progress);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < frame.cost.size(); i += 3) sum += frame.cost[i];
+  return std::uint64_t(sum);
+}
+
+Frame DeviceRenderer::empty_frame(const Scene& scene) {
+  const std::size_t pixels = std::size_t(scene.width) * scene.height;
+  Frame frame{scene.width, scene.height, {}, {}, {}, {}};
+  frame.color.resize(4 * pixels);
+  frame.depth.resize(pixels);
+  frame.normal.resize(3 * pixels);
+  if (scene.cost) frame.cost.resize(3 * pixels);
+  return frame;
+}
+
+void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
+  std::uint64_t coefficients = 0, structure = 0;
+  for (const gpu::Buffer& b : coefficient_buffers_) coefficients += b.bytes;
+  for (const auto& [name, b] : structure_buffers_) structure += b.bytes;
+  stats.device = gpu::info(*device_).name;
+  stats.device_bytes = {{"coefficients", coefficients}, {"structure", structure}, {"occupancy", occupancy_.bytes},
+                        {"frame", band.color.bytes + band.hit.bytes + band.cost.bytes},
+                        {"parameters", parameters_.bytes + isosurfaces_.bytes}};
+  stats.blocks = block_count_;
+  stats.active_blocks = active_blocks_;
+  stats.active_cells = active_cells_;
+}
+
+Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
+  check_scene(request.scene);
+  check_block(request.skip.block);
+  Request visible = request;
+  visible.scene.isosurfaces = visible_surfaces(request.scene);
+  if (visible.scene.isosurfaces.empty()) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
+  std::vector<double> isovalues;
+  for (const Isosurface& s : visible.scene.isosurfaces) isovalues.push_back(s.isovalue);
+
+  stats = RenderStats{};
+  prepare_coefficients(stats, progress);
+  prepare_bounds(visible, stats, progress);
+  prepare_structure(visible, isovalues, stats);
+  upload_isosurfaces(visible.scene.isosurfaces);
+  const gpu::Pipeline& kernel = pipeline(variant(visible), visible.skip.block, stats);
+
+  Band band = make_band(visible.scene, visible.scene.cost);
+  Frame frame = empty_frame(visible.scene);
+  if (request.repeat > 1) trace(kernel, visible.scene, band, nullptr, {});  // warm-up
+  for (int i = 0; i < request.repeat; ++i)
+    stats.trace_ms.push_back(trace(kernel, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
+  describe(band, stats);
+  if (request.count_evaluations) stats.evaluations = count_evaluations(visible, progress);
+  stats.rays = std::uint64_t(frame.width) * frame.height;
+  stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
+  if (config_.validation && !gpu::validation_messages(*device_).empty())
+    throw std::runtime_error("validation: " + gpu::validation_messages(*device_).front());
+  return frame;
+}
+
+}  // namespace quincunx

@@ -1,0 +1,41 @@
+// The one table of what a ray caster kernel can contain, and how a kernel is composed from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/gpu.h"
+#include "render/renderer.h"
+
+namespace quincunx {
+
+/// What one kernel is for.
+struct KernelVariant {
+  std::string spline_shader = "bcc7.glsl";
+  std::string structure = "none";  ///< a name of structure_names()
+  std::string structure_shader = "skip_none.glsl";
+  bool cell_test = false;
+  Intersect intersect = Intersect::exact;
+  Normal normal = Normal::analytic;
+  bool many_isovalues = false;  ///< more than one
+  bool composite = false;       ///< a surface lets something through
+  bool cost = false;            ///< counts evaluations, steps and intervals
+  int coefficient_buffers = 1;  ///< 1..8 texel buffers
+  int coefficient_shift = 0;    ///< log2 of the elements of each, where there are several
+
+  auto operator<=>(const KernelVariant&) const = default;
+};
+
+/// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
+gpu::KernelSource kernel_source(const KernelVariant& variant);
+gpu::ShaderFiles kernel_files(const KernelVariant& variant);
+
+/// A part of the table, as it stands in the SPIR-V: the name of a function or of a buffer that is there exactly if the
+/// part is compiled in.
+struct KernelPart {
+  Feature feature;
+  std::string witness;
+};
+std::vector<KernelPart> kernel_parts(const KernelVariant& variant);
+
+}  // namespace quincunx

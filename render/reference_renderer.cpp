@@ -1,0 +1,55 @@
+#include "render/reference_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/stopwatch.h"
+
+namespace quincunx {
+namespace {
+
+/// The same coefficients as the kernels would read, for bounds.
+Coefficients<float> narrowed(const Coefficients<double>& c) {
+  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end())};
+}
+
+}  // namespace
+
+ReferenceRenderer::ReferenceRenderer(const Volume& volume, const Config& config)
+    : config_(config), spline_(make_spline(config.spline)), volume_(volume) {}
+
+Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
+  check_scene(request.scene);
+  stats = RenderStats{};
+  stats.device = "cpu (double precision)";
+  if (!coefficients_) {
+    const Stopwatch watch;
+    coefficients_ = spline_->coefficients(volume_, config_.prefilter, progress);
+    stats.prefilter_ms = watch.ms();
+    volume_.samples = {};
+  }
+  const bool skips = request.skip.structure != "none";
+  if (skips && !cells_) {
+    const Stopwatch watch;
+    cells_ = bcc7_bounds(narrowed(*coefficients_), progress);
+    stats.bounds_ms = watch.ms();
+  }
+
+  Scene scene = request.scene;
+  scene.cost = scene.cost || request.count_evaluations;
+  Frame frame;
+  for (int i = 0; i < request.repeat; ++i) {
+    const Stopwatch watch;
+    frame = render_reference(*spline_, *coefficients_, scene, skips ? &*cells_ : nullptr, progress);
+    stats.trace_ms.push_back(watch.ms());
+  }
+  double evaluations = 0.0;
+  for (std::size_t i = 0; i < frame.cost.size(); i += 3) evaluations += frame.cost[i];
+  stats.evaluations = std::uint64_t(evaluations);
+  if (!request.scene.cost) frame.cost.clear();
+  stats.rays = std::uint64_t(frame.width) * frame.height;
+  stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
+  return frame;
+}
+
+}  // namespace quincunx

@@ -1,0 +1,90 @@
+#include "render/trace_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+/// Nearer than this many radii of the domain's bounding sphere, rays start at the eye itself.
+constexpr double kNear = 1.5;
+
+float high(double x) { return float(x); }
+float low(double x) { return float(x - double(float(x))); }
+
+void store(const glm::dvec3& x, double w, vec4& hi, vec4& lo) {
+  hi = vec4(high(x.x), high(x.y), high(x.z), high(w));
+  lo = vec4(low(x.x), low(x.y), low(x.z), low(w));
+}
+
+vec4 narrow(const glm::dvec3& x, double w = 0.0) { return vec4(glm::vec3(x), float(w)); }
+
+/// The inverse of the world's axes; throws where there is none.
+glm::dmat3 inverse_axes(const World& world) {
+  const glm::dmat3 inverse = glm::inverse(world.axes);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (!std::isfinite(inverse[i][j])) throw InputError("space directions: they do not span space; expected three independent vectors");
+  return inverse;
+}
+
+/// How far along the view (world units) rays start: at the plane through the centre, or at an eye that is near or past it.
+double start_plane(const Camera& camera, const glm::dvec3& forward, const World& world, const glm::dvec3& centre) {
+  const glm::dvec3 to_centre = world.to_world(centre) - camera.eye;
+  double radius = 0.0;
+  for (int i = 0; i < 4; ++i) {  // the four diagonals
+    const glm::dvec3 corner(centre.x, i & 1 ? -centre.y : centre.y, i & 2 ? -centre.z : centre.z);
+    radius = std::max(radius, glm::length(world.axes * corner));
+  }
+  return glm::length(to_centre) < kNear * radius ? 0.0 : std::max(0.0, glm::dot(to_centre, forward));
+}
+
+}  // namespace
+
+TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& coefficients) {
+  const World& world = coefficients.world;
+  const glm::dmat3 to_lattice = inverse_axes(world);
+  const CameraFrame frame = camera_frame(scene.camera, scene.width, scene.height);
+  const glm::dvec3 cells(domain_max(coefficients.lattice, coefficients.extents));
+  const glm::dvec3 centre = cells / 2.0;
+
+  TraceParameters p{};
+  const glm::dvec3 forward = to_lattice * frame.forward, right = to_lattice * frame.right, up = to_lattice * frame.up;
+  store(forward, 0.0, p.forward_hi, p.forward_lo);
+  store(right, 0.0, p.right_hi, p.right_lo);
+  store(up, 0.0, p.up_hi, p.up_lo);
+
+  const double plane = start_plane(scene.camera, frame.forward, world, centre);
+  const glm::dvec3 base = to_lattice * (scene.camera.eye - world.origin + plane * frame.forward) - centre;
+  store(base, plane, p.base_hi, p.base_lo);
+  store(plane * right, 0.0, p.base_right_hi, p.base_right_lo);
+  store(plane * up, 0.0, p.base_up_hi, p.base_up_lo);
+
+  const double tangent_x = glm::length(frame.right), tangent_y = glm::length(frame.up);
+  p.tangent = vec4(high(tangent_x), low(tangent_x), high(tangent_y), low(tangent_y));
+  p.world_forward = narrow(frame.forward);
+  p.world_right = narrow(frame.right);
+  p.world_up = narrow(frame.up);
+
+  // Only the direction of a normal matters: scale the matrix into the middle of the floats.
+  glm::dmat3 normal = glm::transpose(to_lattice);
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(normal[i][j]));
+  normal /= largest;
+  p.normal_x = narrow(normal[0]);
+  p.normal_y = narrow(normal[1]);
+  p.normal_z = narrow(normal[2]);
+
+  p.background = narrow(scene.background, scene.ambient);
+  p.march = vec4(float(scene.step), float(scene.delta), 0.0f, 0.0f);
+  p.cells = ivec4(glm::ivec3(cells), int(scene.isosurfaces.size()));
+  p.strides = ivec4(int(coefficients.stride_y()), int(coefficients.stride_z()), int(coefficients.stride_coset()),
+                    int(coefficients.number(0, glm::i64vec3(0))));
+  p.picture = ivec4(scene.width, scene.height, 0, scene.height);
+  return p;
+}
+
+}  // namespace quincunx
