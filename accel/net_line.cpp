@@ -33,11 +33,6 @@ struct Line {
   float* net;           ///< kPeriod * pitch
 };
 
-struct LineTap {
-  const float* samples;
-  float weight;
-};
-
 /// Sums the rows of each group. What is past the end repeats the last sample: finite, and read by no cell.
 [[gnu::always_inline]] inline void gather(const Line& line) {
   for (int g = 0; g < line.groups; ++g) {
@@ -54,12 +49,13 @@ struct LineTap {
   }
 }
 
-/// net[i] = sum of weight * samples[i] over the taps, for `Registers` * kLanes of i from `first`.
+/// net[i] = sum of weight * samples[offset + i] over the taps, for `Registers` * kLanes of i from `first`.
 template <int Registers>
-[[gnu::always_inline]] inline void convolve(const LineTap* tap, const LineTap* end, std::int64_t first, float* net) {
+[[gnu::always_inline]] inline void convolve(const NetLines::Tap* tap, const NetLines::Tap* end, const float* samples,
+                                            std::int64_t first, float* net) {
   Lanes sum[Registers] = {};
   for (; tap != end; ++tap) {
-    const Lanes* from = reinterpret_cast<const Lanes*>(tap->samples + first);
+    const Lanes* from = reinterpret_cast<const Lanes*>(samples + tap->offset + first);
 #pragma GCC unroll 8
     for (int r = 0; r < Registers; ++r) sum[r] += tap->weight * from[r];
   }
@@ -69,13 +65,13 @@ template <int Registers>
 }
 
 /// The rows of the net for all residues of x.
-[[gnu::always_inline]] inline void convolve_all(const Line& line, const LineTap* taps, const int* tap_end) {
+[[gnu::always_inline]] inline void convolve_all(const Line& line, const NetLines::Tap* taps, const int* tap_end) {
   for (int a = 0; a < kPeriod; ++a) {
     std::int64_t i = 0;
     for (; i + kBlock * kLanes <= line.pitch; i += kBlock * kLanes)
-      convolve<kBlock>(taps + tap_end[a], taps + tap_end[a + 1], i, line.net + a * line.pitch);
+      convolve<kBlock>(taps + tap_end[a], taps + tap_end[a + 1], line.samples, i, line.net + a * line.pitch);
     for (; i < line.pitch; i += kGrain)
-      convolve<kGrain / kLanes>(taps + tap_end[a], taps + tap_end[a + 1], i, line.net + a * line.pitch);
+      convolve<kGrain / kLanes>(taps + tap_end[a], taps + tap_end[a + 1], line.samples, i, line.net + a * line.pitch);
   }
 }
 
@@ -97,7 +93,7 @@ template <int Registers>
   }
 }
 
-[[gnu::always_inline]] inline void widen_rows(const Line& line, const LineTap* taps, const int* tap_end,
+[[gnu::always_inline]] inline void widen_rows(const Line& line, const NetLines::Tap* taps, const int* tap_end,
                                               RowRange* const* rows, int count) {
   gather(line);
   convolve_all(line, taps, tap_end);
@@ -113,15 +109,15 @@ template <int Registers>
   }
 }
 
-using WidenRows = void (*)(const Line&, const LineTap*, const int*, RowRange* const*, int);
+using WidenRows = void (*)(const Line&, const NetLines::Tap*, const int*, RowRange* const*, int);
 
-void widen_rows_portable(const Line& line, const LineTap* taps, const int* tap_end, RowRange* const* rows, int count) {
+void widen_rows_portable(const Line& line, const NetLines::Tap* taps, const int* tap_end, RowRange* const* rows, int count) {
   widen_rows(line, taps, tap_end, rows, count);
 }
 
 #if defined(__x86_64__)
 // Not target_clones: its resolvers run before AddressSanitizer is ready.
-[[gnu::target("avx2")]] void widen_rows_avx2(const Line& line, const LineTap* taps, const int* tap_end,
+[[gnu::target("avx2")]] void widen_rows_avx2(const Line& line, const NetLines::Tap* taps, const int* tap_end,
                                              RowRange* const* rows, int count) {
   widen_rows(line, taps, tap_end, rows, count);
 }
@@ -169,7 +165,7 @@ NetLines::Recipe NetLines::make_recipe(int y, int z) const {
       const auto [coset, d1, d2] = key;
       for (int i : reaching(coset, x))
         if (const int w = bcc7_net(x - 4 * coset - kPeriod * i, d1, d2); w != 0)
-          recipe.taps.push_back({g, i, float(w) / float(kBcc7NetDenominator)});
+          recipe.taps.push_back({std::int32_t(g * sample_pitch_) + kBefore + i, float(w) / float(kBcc7NetDenominator)});
       ++g;
     }
     recipe.tap_end[x + 1] = int(recipe.taps.size());
@@ -194,18 +190,13 @@ void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* 
   const Recipe& recipe = recipes_[std::size_t(z % kPeriod * kPeriod + y % kPeriod)];
   const float* base = c_.data.data() + c_.number(0, {-kBefore, y / kPeriod, z / kPeriod});
 
-  constexpr int kMostRows = 32, kMostTaps = 256;
+  constexpr std::size_t kMostRows = 32;
   const float* rows[kMostRows];
-  LineTap taps[kMostTaps];
-  assert(recipe.rows.size() <= kMostRows && recipe.taps.size() <= kMostTaps);
+  assert(recipe.rows.size() <= kMostRows);
   for (std::size_t r = 0; r < recipe.rows.size(); ++r) rows[r] = base + recipe.rows[r];
-  for (std::size_t t = 0; t < recipe.taps.size(); ++t) {
-    const Tap& tap = recipe.taps[t];
-    taps[t] = {work.samples.data() + tap.group * sample_pitch_ + kBefore + tap.shift, tap.weight};
-  }
   const Line line{rows,   recipe.group_end.data(), int(recipe.group_end.size()) - 1, c_.extents.x + 2 * kBefore,
                   pitch_, sample_pitch_,           work.samples.data(),              work.net.data()};
-  kernel(line, taps, recipe.tap_end, ranges, count);
+  kernel(line, recipe.taps.data(), recipe.tap_end, ranges, count);
 }
 
 }  // namespace quincunx

@@ -38,12 +38,13 @@ class NetLines {
   /// Each net value is within 32 * 2^-24 of the largest |coefficient| that it is a mean of (at most 22 taps).
   void widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* const* rows, int count) const;
 
- private:
-  /// weight * (sum of the rows of `group`)[i + shift].
+  /// weight * Workspace::samples[offset + i], a term of net value 8i + a.
   struct Tap {
-    int group, shift;
+    std::int32_t offset;
     float weight;
   };
+
+ private:
   /// What lines of one residue of (y,z) modulo 8 are made of.
   struct Recipe {
     std::vector<std::int64_t> rows;   ///< relative to the sample (0; 0, y/8, z/8)
