@@ -1,0 +1,196 @@
+// Bad input: status 2, exactly one line on standard error, nothing on standard output, nothing written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "io/volume_file.h"
+#include "program.h"
+
+namespace quincunx::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A folder with a good BCC volume (bcc.nrrd), a Cartesian one (cartesian.nrrd) and one point (p.csv).
+class Errors : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto ramp = [](const glm::dvec3& x) { return x.x + x.y; };
+    write_volume(make_volume(LatticeKind::bcc, {4, 4, 4}, {}, ramp), bcc, Encoding::raw);
+    write_volume(make_volume(LatticeKind::cartesian, {4, 4, 4}, {}, ramp), cartesian, Encoding::raw);
+    write_file(points, "1,1,1\n");
+  }
+
+  /// Expects the refusal of `arguments` in one line with each of `parts`.
+  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const auto before = folder.names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+    for (const std::string& part : parts) EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_EQ(folder.names(), before);
+  }
+
+  /// `render` of `volume` at isovalue 3 to out.png with more arguments.
+  Arguments render(const Arguments& more) const {
+    Arguments arguments{"render", bcc, "-o", out, "--iso", "3", "--size", "8", "8"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  const TemporaryFolder folder;
+  const std::string bcc = folder / "bcc.nrrd", cartesian = folder / "cartesian.nrrd", points = folder / "p.csv";
+  const std::string out = folder / "out.png", missing = folder / "missing.nrrd";
+};
+
+TEST_F(Errors, NameAnUnknownSubCommandOrItsAbsence) {
+  expect_refused({}, {"subcommand"});
+  expect_refused({"rendr"}, {"rendr", "quincunx --help"});
+}
+
+TEST_F(Errors, NameAnUnknownFlagOfEverySubCommand) {
+  expect_refused({"info", bcc, "--jsn"}, {"'--jsn'", "quincunx info --help"});
+  expect_refused({"convert", bcc, out, "--lattice", "cartesian", "--fast"}, {"'--fast'"});
+  expect_refused({"sample", "sphere", out, "--lattice", "bcc", "--dims", "2", "2", "2", "--sed", "1"}, {"'--sed'"});
+  expect_refused({"eval", bcc, "--points", points, "--double"}, {"'--double'"});
+  expect_refused(render({"--isovalue", "4"}), {"'--isovalue'", "quincunx render --help"});
+  expect_refused({"devices", "--all"}, {"'--all'"});
+}
+
+TEST_F(Errors, NameAMissingArgument) {
+  expect_refused({"info"}, {"VOLUME"});
+  expect_refused({"eval", bcc}, {"--points"});
+  expect_refused({"sample", "sphere", out, "--lattice", "bcc"}, {"--dims"});
+  expect_refused({"convert", bcc, out}, {"--lattice"});
+  expect_refused({"render", bcc, "-o", out}, {"--iso", "quincunx info"});
+  expect_refused({"render", bcc, "--iso", "3"}, {"-o"});
+}
+
+TEST_F(Errors, NameAFileThatIsNotThere) {
+  expect_refused({"info", missing}, {"missing.nrrd"});
+  expect_refused({"convert", missing, out, "--lattice", "bcc"}, {"missing.nrrd"});
+  expect_refused({"eval", missing, "--points", points}, {"missing.nrrd"});
+  expect_refused({"eval", bcc, "--points", folder / "none.csv"}, {"none.csv"});
+  expect_refused({"render", missing, "-o", out, "--iso", "3"}, {"missing.nrrd"});
+  expect_refused(render({"--camera", folder / "none.json"}), {"none.json"});
+}
+
+TEST_F(Errors, NameAFileThatIsCutShortWhereverItIsCut) {
+  const std::string whole = read_file(bcc), cut = folder / "cut.nrrd";
+  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 8) {
+    write_file(cut, whole.substr(0, size));
+    expect_refused({"info", cut}, {"cut.nrrd"});
+  }
+  write_file(cut, whole.substr(0, whole.size() - 1));
+  expect_refused({"render", cut, "-o", out, "--iso", "3"}, {"cut.nrrd"});
+}
+
+TEST_F(Errors, NameAFileThatIsNoVolume) {
+  const std::string text = folder / "text.nrrd", wrong = folder / "wrong.nrrd";
+  write_file(text, "not a volume\n");
+  expect_refused({"info", text}, {"text.nrrd"});
+  std::string header = read_file(bcc);
+  const std::size_t sizes = header.find("sizes: 4 4 4 2");
+  ASSERT_NE(sizes, std::string::npos);
+  write_file(wrong, header.replace(sizes, 14, "sizes: 9 9 9 2"));
+  expect_refused({"info", wrong}, {"wrong.nrrd"});
+  expect_refused({"info", folder / "."}, {"folder"});
+}
+
+TEST_F(Errors, NameAnUnknownLatticeMethodAndField) {
+  expect_refused({"convert", cartesian, out, "--lattice", "fcc"}, {"--lattice", "'fcc'", "bcc"});
+  expect_refused({"convert", cartesian, out, "--lattice", "bcc", "--method", "fit"}, {"--method", "'fit'", "subset"});
+  expect_refused({"sample", "cube", out, "--lattice", "bcc", "--dims", "2", "2", "2"}, {"'cube'", "marschner-lobb"});
+  expect_refused({"sample", "sphere", out, "--lattice", "hcp", "--dims", "2", "2", "2"}, {"--lattice", "'hcp'"});
+}
+
+TEST_F(Errors, NameSizesThatAreNone) {
+  for (const std::string bad : {"0", "-1", "1.5", "many", "99999999999999999999"}) {
+    expect_refused({"sample", "sphere", out, "--lattice", "bcc", "--dims", "2", bad, "2"}, {"--dims", "'" + bad + "'"});
+    expect_refused(render({"--size", "8", bad}), {"--size"});
+  }
+  expect_refused({"sample", "sphere", out, "--lattice", "bcc", "--dims", "2", "2"}, {"--dims"});
+}
+
+TEST_F(Errors, NameThePlaceOfSamplesThatAreNotFinite) {
+  Volume volume = make_volume(LatticeKind::bcc, {2, 3, 4}, {}, [](const glm::dvec3& x) { return x.x; });
+  // Coset 1, index (1, 2, 3): the last of 48.
+  std::get<std::vector<float>>(volume.samples).back() = std::numeric_limits<float>::quiet_NaN();
+  const std::string nan = folder / "nan.nrrd";
+  write_volume(volume, nan);
+  expect_refused({"render", nan, "-o", out, "--iso", "3"}, {"nan.nrrd", "1 of 48", "coset 1, index (1, 2, 3)"});
+  expect_refused({"eval", nan, "--points", points}, {"nan.nrrd"});
+}
+
+TEST_F(Errors, TellHowToMakeABccVolumeOfACartesianOne) {
+  const std::string command =
+      "quincunx convert " + cartesian + " " + (folder / "cartesian_bcc.nrrd") + " --lattice bcc";
+  expect_refused({"render", cartesian, "-o", out, "--iso", "3"}, {command});
+  expect_refused({"eval", cartesian, "--points", points}, {command});
+}
+
+TEST_F(Errors, NameAFlagsBadValue) {
+  for (const std::string bad : {"nan", "inf", "abc", "1,", ""}) {
+    expect_refused({"render", bcc, "-o", out, "--iso", bad}, {"--iso"});
+    expect_refused(render({"--opacity", bad}), {"--opacity"});
+    expect_refused(render({"--azimuth", bad}), {"--azimuth"});
+    expect_refused(render({"--step", bad}), {"--step"});
+  }
+  expect_refused({"render", bcc, "-o", out, "--iso", "3,3"}, {"--iso"});
+  expect_refused(render({"--opacity", "1.5"}), {"--opacity"});
+  expect_refused(render({"--step", "0"}), {"--step", "0"});
+  expect_refused(render({"--delta", "-1"}), {"--delta", "-1"});
+  expect_refused(render({"--zoom", "0"}), {"--zoom", "0"});
+  expect_refused(render({"--ambient", "2"}), {"--ambient", "2"});
+  expect_refused(render({"--color", "red"}), {"--color", "'red'", "#rrggbb"});
+  expect_refused(render({"--background", "#12345"}), {"--background", "'#12345'"});
+  expect_refused(render({"--skip", "octree"}), {"--skip", "'octree'", "none, grid"});
+  expect_refused(render({"--block", "12"}), {"--block", "12", "power of two"});
+  expect_refused(render({"--cell-test", "maybe"}), {"--cell-test", "'maybe'", "on, off"});
+  expect_refused(render({"--intersect", "guess"}), {"--intersect", "'guess'", "exact, march"});
+  expect_refused(render({"--normal", "flat"}), {"--normal", "'flat'", "analytic, central"});
+  expect_refused(render({"--repeat", "0"}), {"--repeat", "'0'"});
+  expect_refused({"eval", bcc, "--points", points, "--precision", "half"}, {"--precision", "'half'", "double, float"});
+}
+
+TEST_F(Errors, CountListsThatDoNotMatch) {
+  const Arguments base{"render", bcc, "-o", out, "--iso", "1,2,3"};
+  Arguments colors = base, opacities = base;
+  for (const char* part : {"--color", "1,0,0", "--color", "#00ff00"}) colors.push_back(part);
+  for (const char* part : {"--opacity", "0.5,1"}) opacities.push_back(part);
+  expect_refused(colors, {"--color", "2", "3"});
+  expect_refused(opacities, {"--opacity", "2", "3"});
+}
+
+TEST_F(Errors, NameBothWaysWhereACameraIsGivenTwice) {
+  const std::string camera = folder / "camera.json";
+  write_file(camera, R"({"eye":[0,0,9],"target":[0,0,0],"up":[0,1,0]})");
+  expect_refused(render({"--camera", camera, "--azimuth", "10"}), {"--camera", "--azimuth"});
+  expect_refused(render({"--zoom", "2", "--eye", "1", "2", "3"}), {"--zoom", "--eye"});
+  expect_refused(render({"--camera", camera, "--fov", "20"}), {"--camera", "--fov"});
+  expect_refused(render({"--target", "1", "2", "3"}), {"--target", "--eye"});
+  expect_refused(render({"--eye", "1", "2"}), {"--eye"});
+  expect_refused(render({"--eye", "1", "2", "3", "--target", "1", "2", "3"}), {"--eye"});
+}
+
+TEST_F(Errors, NameAPlaceThatCannotBeWritten) {
+  const std::string nowhere = folder / "no/such/folder/out";
+  expect_refused({"convert", cartesian, nowhere + ".nrrd", "--lattice", "bcc"}, {"no/such/folder"});
+  expect_refused({"sample", "sphere", nowhere + ".nrrd", "--lattice", "bcc", "--dims", "2", "2", "2"},
+                 {"no/such/folder"});
+  expect_refused({"render", bcc, "-o", nowhere + ".png", "--iso", "3"}, {"no/such/folder"});
+  expect_refused(render({"--stats", nowhere + ".json"}), {"no/such/folder"});
+  expect_refused(render({"-o", folder / "out.gif"}), {"out.gif"});
+  expect_refused(render({"-o", out}), {"-o", "twice"});
+}
+
+TEST_F(Errors, NameADeviceThatIsNotThere) {
+  expect_refused(render({"--device", "no such device"}), {"no such device"});
+  expect_refused(render({"--device", "4711"}), {"4711"});
+}
+
+}  // namespace
+}  // namespace quincunx::test

@@ -1,0 +1,114 @@
+#include "program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace quincunx::test {
+namespace {
+
+[[noreturn]] void execute(const Arguments& arguments, const std::string& out, const std::string& err) {
+  const int streams[3] = {::open("/dev/null", O_RDONLY), ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
+                          ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600)};
+  for (int stream = 0; stream < 3; ++stream) ::dup2(streams[stream], stream);
+  std::vector<char*> argv{const_cast<char*>(QUINCUNX_PROGRAM)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  ::execv(QUINCUNX_PROGRAM, argv.data());
+  ::_exit(127);
+}
+
+}  // namespace
+
+Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool()>& ready) {
+  const TemporaryFolder streams;
+  const std::string out = streams / "out", err = streams / "err";
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) execute(arguments, out, err);
+
+  int wait_status = 0;
+  bool sent = false;
+  for (;;) {
+    const pid_t ended = ::waitpid(child, &wait_status, ready && !sent ? WNOHANG : 0);
+    if (ended == child) break;
+    if (ended < 0 && errno != EINTR) throw std::runtime_error("waitpid failed");
+    if (ended == 0 && ready()) {
+      sent = true;
+      ::kill(child, signal);
+    }
+    if (ended == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return {WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : -1, read_file(out), read_file(err)};
+}
+
+Outcome run(const Arguments& arguments) { return run_and_signal(arguments, 0, {}); }
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "quincunx-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder can be made: " + pattern);
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<std::string> TemporaryFolder::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot be read: " + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw std::runtime_error("cannot be written: " + path);
+}
+
+Volume make_volume(LatticeKind lattice, const Extents& extents, const World& world,
+                   const std::function<double(const glm::dvec3&)>& f) {
+  std::vector<float> samples;
+  for (int c = 0; c < coset_count(lattice); ++c) {
+    for (std::int64_t k = 0; k < extents.z; ++k) {
+      for (std::int64_t j = 0; j < extents.y; ++j) {
+        for (std::int64_t i = 0; i < extents.x; ++i) {
+          const glm::dvec3 u = double(lattice_step(lattice)) * glm::dvec3(i, j, k) + double(c);
+          samples.push_back(float(f(world.to_world(u))));
+        }
+      }
+    }
+  }
+  return {.lattice = lattice, .extents = extents, .world = world, .samples = std::move(samples), .notes = {}};
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(line);
+  return result;
+}
+
+}  // namespace quincunx::test
