@@ -7,7 +7,7 @@
 #include "bcc7_tables.glsl"
 #include "bernstein.glsl"
 
-const float SPLINE_SCALE = 384.0;
+const float SPLINE_SCALE = BCC7_SCALE;
 
 // A cell and where its samples are.
 struct SplineCell {
