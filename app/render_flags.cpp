@@ -77,7 +77,8 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
   };
   app.add_option_function<Texts>("--size", size, "Pixels")
       ->type_name("W H")
-      ->expected(2)
+      ->type_size(2)
+      ->expected(1)
       ->default_str(fmt::format("{} {}", flags.scene.width, flags.scene.height))
       ->group(group);
   app.add_flag("--cost", flags.scene.cost,
@@ -124,7 +125,7 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
                  "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
       ->type_name("D")
       ->group(group);
-  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace; the first of several is a warm-up")
+  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace and time; where several, one more before them warms up")
       ->group(group);
   app.add_flag("--validate", flags.config.validation, "Turn Vulkan's validation layers on; any message is a failure")
       ->group(group);

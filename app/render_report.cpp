@@ -55,13 +55,9 @@ double percentile(std::vector<double> values, double fraction) {
   return std::lerp(values[below], values[above], place - double(below));
 }
 
-std::vector<double> timed_frames(const std::vector<double>& trace_ms) {
-  return {trace_ms.begin() + (trace_ms.size() > 1 ? 1 : 0), trace_ms.end()};
-}
-
 Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats, double read_ms) {
   const Scene& scene = request.scene;
-  const std::vector<double> frames = timed_frames(stats.trace_ms);
+  const std::vector<double>& frames = stats.trace_ms;
   Json json{{"volume", volume}, {"device", stats.device}, {"size", {scene.width, scene.height}}};
   for (const Isosurface& surface : scene.isosurfaces) json["isovalues"].push_back(surface.isovalue);
   json["intersect"] = scene.intersect == Intersect::exact ? "exact" : "march";

@@ -16,9 +16,6 @@ Image to_image(const Frame& frame);
 /// The value below which `fraction` (0..1) of the values lie, between two by linear interpolation; values not empty.
 double percentile(std::vector<double> values, double fraction);
 
-/// The frames that count: all but the first, which warms up, where there are several.
-std::vector<double> timed_frames(const std::vector<double>& trace_ms);
-
 /// The statistics of a render; README, "Statistics", names the keys.
 nlohmann::ordered_json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats,
                                   double read_ms);

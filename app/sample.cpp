@@ -55,7 +55,8 @@ Command sample_command(CLI::App& program) {
   app->add_option_function<std::vector<std::string>>("--dims", parse_dims,
                                                      "Samples per axis; on the BCC lattice, of each of the two cosets")
       ->type_name("NX NY NZ")
-      ->expected(3)
+      ->type_size(3)
+      ->expected(1)
       ->required();
   add_integer(*app, "--seed", flags->seed, 0, 2147483647, "Which random quartic");
   add_choice(*app, "--encoding", flags->encoding, {{"gzip", Encoding::gzip}, {"raw", Encoding::raw}},

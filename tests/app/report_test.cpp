@@ -39,12 +39,6 @@ TEST(Report, TakesPercentilesBetweenTheNeighbouringValues) {
   EXPECT_EQ(percentile({7.0}, 0.95), 7.0);
 }
 
-TEST(Report, LeavesTheWarmUpOutWhereThereAreMoreFrames) {
-  EXPECT_EQ(timed_frames({9.0, 1.0, 2.0}), (std::vector<double>{1.0, 2.0}));
-  EXPECT_EQ(timed_frames({9.0}), std::vector<double>{9.0});
-  EXPECT_TRUE(timed_frames({}).empty());
-}
-
 TEST(Report, ExplainsWhatIsInBeforeWhatIsOut) {
   const std::string text = explain_text({{"compositing", false, "one opaque surface"}, {"bcc7", true, "the spline"}});
   EXPECT_LT(text.find("in   bcc7"), text.find("out  compositing"));
