@@ -3,7 +3,8 @@
 // One routine serves all 24 kinds of tetrahedron: E is the cell's all-even corner, `sign` leads from it to the all-odd one,
 // u = sign * (p - E) is in [0,1]^3, and sorting u descending picks the Kuhn tetrahedron. Seen in that order of
 // axes every stencil looks alike, so strides are signed and permuted instead of tables. All values are
-// SPLINE_SCALE times the spline's: the division by 384 never happens.
+// SPLINE_SCALE times the spline's: the division never happens.
+#define COEFFICIENT(number) coefficient(number)
 #include "bcc7_tables.glsl"
 #include "bernstein.glsl"
 
@@ -94,13 +95,7 @@ void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float off
   c000 -= offset;
   vec3 p = in_order(order, a);
   vec3 q = in_order(order, d);
-  vec3 p1 = p + 0.25 * q, p2 = p + 0.5 * q, p3 = p + 0.75 * q, p4 = p + q;
-  precise float f0 = BCC7_VALUE(p.x, p.y, p.z);
-  precise float f1 = BCC7_VALUE(p1.x, p1.y, p1.z);
-  precise float f2 = BCC7_VALUE(p2.x, p2.y, p2.z);
-  precise float f3 = BCC7_VALUE(p3.x, p3.y, p3.z);
-  precise float f4 = BCC7_VALUE(p4.x, p4.y, p4.z);
-  bernstein_from_values(f0, f1, f2, f3, f4, b);
+  BCC7_RESTRICT(b[0], b[1], b[2], b[3], b[4], p.x, p.y, p.z, q.x, q.y, q.z)
 }
 
 // SPLINE_SCALE times the value at u, less `offset`.

@@ -1,17 +1,5 @@
 // Quartics in Bernstein form on [0,1].
 
-// Coefficients from the values at 0, 1/4, 1/2, 3/4, 1.
-void bernstein_from_values(float f0, float f1, float f2, float f3, float f4, out float b[5]) {
-  precise float b1 = (-13.0 * f0 + 48.0 * f1 - 36.0 * f2 + 16.0 * f3 - 3.0 * f4) * (1.0 / 12.0);
-  precise float b2 = (13.0 * (f0 + f4) - 64.0 * (f1 + f3) + 120.0 * f2) * (1.0 / 18.0);
-  precise float b3 = (-13.0 * f4 + 48.0 * f3 - 36.0 * f2 + 16.0 * f1 - 3.0 * f0) * (1.0 / 12.0);
-  b[0] = f0;
-  b[1] = b1;
-  b[2] = b2;
-  b[3] = b3;
-  b[4] = f4;
-}
-
 // Where the segment (i, p) .. (j, q) of the control polygon comes down to 0, or 1.
 float hull_crossing(float i, float p, float j, float q) { return p > 0.0 && q <= 0.0 ? 0.25 * (i + (j - i) * p / (p - q)) : 1.0; }
 
