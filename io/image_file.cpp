@@ -93,6 +93,7 @@ void write_image(const Image& image, const std::string& path) {
     spec.alpha_channel = image.channel("A");
     spec.z_channel = image.channel("Z");
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // the library would write the time of day
     write_pixels(path, format, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
   } else {
     const std::vector<std::uint8_t> pixels = png_pixels(image, path);

@@ -22,10 +22,13 @@ namespace {
 
 constexpr std::size_t block_bytes = 1 << 20;  ///< read, unpacked and reported at a time
 
-[[noreturn]] void fail_length(const InputFile& file, std::uint64_t found, const char* comparison,
-                              std::uint64_t expected) {
-  throw InputError(fmt::format("{}: found {} bytes of samples, expected {}{} from the sizes and type in the header",
-                               file.path(), found, comparison, expected));
+/// The file holds `found` (a number with its unit) where the header says `expected` bytes.
+[[noreturn]] void fail_length(const InputFile& file, const std::string& found, std::uint64_t expected) {
+  throw InputError(fmt::format("{}: found {} of samples, expected {} bytes from the sizes and type in the header",
+                               file.path(), found, expected));
+}
+[[noreturn]] void fail_length(const InputFile& file, std::uint64_t found, std::uint64_t expected) {
+  fail_length(file, fmt::format("{} bytes", found), expected);
 }
 
 /// Moves past `lines` newlines.
@@ -69,7 +72,7 @@ std::vector<T> read_blocks(const InputFile& file, const NrrdHeader& header, Sour
         std::size_t(std::min<std::uint64_t>(block_bytes / sizeof(T), header.sample_count - begin));
     samples.resize(begin + count);
     const std::size_t got = source(samples.data() + begin, count * sizeof(T));
-    if (got < count * sizeof(T)) fail_length(file, begin * sizeof(T) + got, "", header.sample_count * sizeof(T));
+    if (got < count * sizeof(T)) fail_length(file, begin * sizeof(T) + got, header.sample_count * sizeof(T));
     if (header.swap_bytes) swap_bytes(std::span<T>(samples).subspan(begin));
   }
   return samples;
@@ -85,7 +88,7 @@ std::vector<T> read_raw(InputFile& file, const NrrdHeader& header, const Progres
   }
   const std::uint64_t found =
       header.byte_skip >= 0 ? present - std::uint64_t(header.byte_skip) : std::min(present, expected);
-  if (found != expected) fail_length(file, found, "", expected);
+  if (found != expected) fail_length(file, found, expected);
   file.seek(file.size() - expected);
   return read_blocks<T>(
       file, header, [&](void* to, std::size_t bytes) { return file.read(to, bytes); }, progress);
@@ -108,7 +111,7 @@ template <class T>
 std::vector<T> read_gzip(InputFile& file, const NrrdHeader& header, const Progress& progress) {
   const std::uint64_t expected = header.sample_count * sizeof(T);
   const std::uint64_t most = GzipReader::max_unpacked(file.remaining());
-  if (expected > most) fail_length(file, most, "at most that many unpacked, ", expected);
+  if (expected > most) fail_length(file, fmt::format("a gzip stream of at most {} bytes", most), expected);
 
   GzipReader reader(file);
   skip_unpacked(reader, file, std::uint64_t(header.byte_skip));
@@ -116,7 +119,7 @@ std::vector<T> read_gzip(InputFile& file, const NrrdHeader& header, const Progre
       file, header, [&](void* to, std::size_t bytes) { return reader.read(to, bytes); }, progress);
   // One more read: it finds the end, verifies the checksum, and must find nothing.
   char beyond;
-  if (reader.read(&beyond, 1) != 0) fail_length(file, expected + 1, "or more, ", expected);
+  if (reader.read(&beyond, 1) != 0) fail_length(file, fmt::format("more than {} bytes", expected), expected);
   return samples;
 }
 
