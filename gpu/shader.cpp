@@ -18,6 +18,7 @@ namespace quincunx::gpu {
 namespace {
 
 constexpr std::uint32_t kSpirvMagic = 0x07230203;
+constexpr std::size_t kDeepest = 32;  // includes within includes
 
 struct GlslangProcess {
   GlslangProcess() { glslang::InitializeProcess(); }
@@ -31,7 +32,8 @@ class FileIncluder : public glslang::TShader::Includer {
  public:
   explicit FileIncluder(const ShaderFiles& files) : files_(files) {}
 
-  IncludeResult* includeLocal(const char* name, const char* includer, std::size_t) override {
+  IncludeResult* includeLocal(const char* name, const char* includer, std::size_t depth) override {
+    if (depth > kDeepest) return nullptr;  // files that include each other in a circle
     const std::string resolved = resolve_include(files_, name, includer);
     if (resolved.empty()) return nullptr;
     std::string_view text = files_(resolved);
@@ -53,15 +55,17 @@ std::string error_lines(const char* log, const std::string& file) {
     constexpr std::string_view kError = "ERROR: ";
     if (!line.starts_with(kError)) continue;
     line.erase(0, kError.size());
-    const bool summary = line.find("compilation errors.  No code generated") != std::string::npos;
+    const bool summary = line.find("compilation errors.  No code generated") != std::string::npos ||
+                         line.find("'' : compilation terminated") != std::string::npos;
     if (summary) continue;
+    line.erase(line.find_last_not_of(' ') + 1);
     const bool has_place = line.find(':') != std::string::npos && !line.starts_with("Linking");
     text += (text.empty() ? "" : "\n") + (has_place ? line : fmt::format("{}: {}", file, line));
   }
   return text.empty() ? fmt::format("{}: does not compile: {}", file, log) : text;
 }
 
-// The unpruned GLSL to SPIR-V, for Vulkan 1.2.
+// GLSL to SPIR-V 1.5 for Vulkan 1.2, not optimised.
 std::vector<std::uint32_t> compile_text(const ShaderFiles& files, const KernelSource& source, std::string_view text) {
   static const GlslangProcess process;
   constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);

@@ -26,7 +26,7 @@ struct KernelSource {
 /// `#include "name"` needs no extension line; the name is sought beside the including file, then as it stands. A file
 /// with `#pragma once` is included once. Not optimised, so that functions keep their names (OpName) and a kernel can be
 /// asked what it contains: drivers optimise themselves.
-/// Throws ShaderError: one line for each error, "file:line: what", also for included files.
+/// Throws ShaderError "file:line: what" of the first error, also for included files.
 std::vector<std::uint32_t> compile(const Device& device, const ShaderFiles& files, const KernelSource& source);
 /// Without a device and without a cache (for tests).
 std::vector<std::uint32_t> compile(const ShaderFiles& files, const KernelSource& source);
