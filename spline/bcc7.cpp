@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
 
 #include "spline/bcc7_net.h"
 #include "spline/quasi_interpolation.h"
@@ -19,14 +20,15 @@ constexpr std::array<glm::ivec3, 35> kPoints = [] {
 }();
 
 constexpr int kStencilSize = 30;
+constexpr int kColumns = 36;
 
 /// A sample that reaches the reference tetrahedron: coset (0: that of v0) and index steps along the frame's
 /// axes from v0 (coset 0) or v3 (coset 1).
 struct Tap {
   int coset;
   glm::ivec3 step;
-  /// The net's numerators at the 35 points, one unused column for an even number of them.
-  std::array<double, 36> weights;
+  /// The net's numerators at the 35 points, and one column of zeros.
+  std::array<double, kColumns> weights;
 };
 
 constexpr std::array<Tap, kStencilSize> kStencil = [] {
@@ -46,7 +48,7 @@ constexpr std::array<Tap, kStencilSize> kStencil = [] {
           }
           if (reaches) stencil.at(size++) = tap;
         }
-  if (size != kStencilSize) throw "the stencil of bcc7 has 30 samples";
+  if (size != kStencilSize) throw std::logic_error("the stencil of bcc7 has 30 samples");  // stops the compiler
   return stencil;
 }();
 
@@ -83,10 +85,19 @@ QuarticNet Bcc7::bernstein(const Coefficients<double>& c, const Tetrahedron& tet
   std::int64_t h[3];
   for (int a = 0; a < 3; ++a) h[a] = tetrahedron.sign[tetrahedron.axis[a]] * strides[tetrahedron.axis[a]];
 
-  double sums[36] = {};
-  for (const Tap& tap : kStencil) {
-    const double v = bases[tap.coset][tap.step.x * h[0] + tap.step.y * h[1] + tap.step.z * h[2]];
-    for (int n = 0; n < 36; ++n) sums[n] += tap.weights[n] * v;
+  double samples[kStencilSize];
+  for (int s = 0; s < kStencilSize; ++s) {
+    const Tap& tap = kStencil[s];
+    samples[s] = bases[tap.coset][tap.step.x * h[0] + tap.step.y * h[1] + tap.step.z * h[2]];
+  }
+  // In blocks of columns, so that the sums stay in registers.
+  constexpr int block = 12;
+  double sums[kColumns];
+  for (int first = 0; first < kColumns; first += block) {
+    double part[block] = {};
+    for (int s = 0; s < kStencilSize; ++s)
+      for (int n = 0; n < block; ++n) part[n] += kStencil[s].weights[first + n] * samples[s];
+    std::copy_n(part, block, sums + first);
   }
   QuarticNet net;
   for (int n = 0; n < 35; ++n) net[n] = sums[n] * (1.0 / kBcc7NetDenominator);

@@ -43,8 +43,21 @@ const std::vector<RationalPoint>& ExactBoxSpline::pseudo_inverse(Subset subset) 
   return inverses_.emplace(subset, std::move(rows)).first->second;
 }
 
+bool ExactBoxSpline::outside_box(Subset subset, const RationalPoint& x) const {
+  glm::ivec3 low(0), high(0);
+  for (std::size_t r = 0; r < directions_.size(); ++r)
+    if (subset >> r & 1u) {
+      low += glm::min(directions_[r], 0);
+      high += glm::max(directions_[r], 0);
+    }
+  for (int a = 0; a < 3; ++a)
+    if (x[a] < low[a] || x[a] > high[a]) return true;
+  return false;
+}
+
 mpq_class ExactBoxSpline::recurse(Subset subset, const RationalPoint& x,
                                   std::map<std::pair<Subset, RationalPoint>, mpq_class>& known) {
+  if (outside_box(subset, x)) return 0;
   const std::vector<RationalPoint>& inverse = pseudo_inverse(subset);
   if (inverse.empty()) return 0;
   const auto key = std::pair(subset, x);

@@ -29,6 +29,8 @@ class ExactBoxSpline {
   using Subset = unsigned;  // one bit per direction
   /// The rows of X^T (X X^T)^-1, so that t_r = row_r . x; empty where the directions do not span space.
   const std::vector<RationalPoint>& pseudo_inverse(Subset subset);
+  /// Whether x is outside the bounding box of the support (not centred).
+  bool outside_box(Subset subset, const RationalPoint& x) const;
   /// Not centred: the sum over the cube [0,1]^n starts at the origin. Values met on the way are kept in `known`.
   mpq_class recurse(Subset subset, const RationalPoint& x, std::map<std::pair<Subset, RationalPoint>, mpq_class>& known);
   mpq_class uncentred(Subset subset, const RationalPoint& x);
