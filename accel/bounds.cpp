@@ -19,8 +19,9 @@
 // Evaluation. In monomial form about the even corner (32 coefficients from 30 samples, then Horner's rule, arguments in [0,1]) the
 // error is at most e times the sum over the operations of their largest results: 111 e m for the coefficients, 57 e m for
 // Horner's rule at the far corner, 170 e m together. The 5 Bernstein coefficients along a ray from 5 values of the polynomial
-// weigh the values' errors by up to 116/12; errors of one evaluation seen on noise of alternating signs are below 4 e m, so those
-// are below 40 e m. The net here is computed within 32 e m (net_line.h). K = 512 holds all of it with as much again.
+// weigh the values' errors by up to 274/18; on alternating signs, where most cancels, those of the coefficients stay
+// below 25 e m (tests/accel/bounds_test.cpp). The net here is computed within 32 e m (net_line.h). K = 512 holds each of them
+// with room to spare and costs about one step of the 16 bits.
 // Numbers too small for the float format may be flushed to zero: tiny = 2^-110 is 2^16 of the least normal numbers.
 //
 // Coefficients are supposed to be below 1e36 in absolute value: above, floats overflow in any kernel.

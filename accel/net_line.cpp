@@ -121,9 +121,9 @@ void widen_rows_portable(const Line& line, const NetLines::Tap* taps, const int*
                                              RowRange* const* rows, int count) {
   widen_rows(line, taps, tap_end, rows, count);
 }
-WidenRows choose_widen_rows() { return __builtin_cpu_supports("avx2") ? widen_rows_avx2 : widen_rows_portable; }
+WidenRows best_widen_rows() { return __builtin_cpu_supports("avx2") ? widen_rows_avx2 : widen_rows_portable; }
 #else
-WidenRows choose_widen_rows() { return widen_rows_portable; }
+WidenRows best_widen_rows() { return widen_rows_portable; }
 #endif
 
 /// Places of samples of a coset along one axis, index units, whose net reaches residue r (quarter units).
@@ -136,7 +136,7 @@ std::vector<int> reaching(int coset, int r) {
 
 }  // namespace
 
-NetLines::NetLines(const Coefficients<float>& c) : c_(c) {
+NetLines::NetLines(const Coefficients<float>& c, Instructions instructions) : c_(c), instructions_(instructions) {
   assert(c.lattice == LatticeKind::bcc && c.apron >= kBefore);
   pitch_ = (c.extents.x + kGrain - 1) / kGrain * kGrain;
   sample_pitch_ = pitch_ + kGrain;
@@ -186,7 +186,7 @@ RowRange NetLines::empty_range() const {
 }
 
 void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* const* ranges, int count) const {
-  static const WidenRows kernel = choose_widen_rows();
+  static const WidenRows best = best_widen_rows();
   const Recipe& recipe = recipes_[std::size_t(z % kPeriod * kPeriod + y % kPeriod)];
   const float* base = c_.data.data() + c_.number(0, {-kBefore, y / kPeriod, z / kPeriod});
 
@@ -196,7 +196,7 @@ void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* 
   for (std::size_t r = 0; r < recipe.rows.size(); ++r) rows[r] = base + recipe.rows[r];
   const Line line{rows,   recipe.group_end.data(), int(recipe.group_end.size()) - 1, c_.extents.x + 2 * kBefore,
                   pitch_, sample_pitch_,           work.samples.data(),              work.net.data()};
-  kernel(line, recipe.taps.data(), recipe.tap_end, ranges, count);
+  (instructions_ == Instructions::best ? best : widen_rows_portable)(line, recipe.taps.data(), recipe.tap_end, ranges, count);
 }
 
 }  // namespace quincunx

@@ -21,8 +21,11 @@ struct RowRange {
 /// line, which makes the inner loops run over contiguous samples; rows whose weights agree are added first.
 class NetLines {
  public:
+  /// What the inner loops may use: all that the processor has, or what every one has. The results are the same.
+  enum class Instructions { best, portable };
+
   /// Keeps a reference to `c`: bcc, apron >= 1.
-  explicit NetLines(const Coefficients<float>& c);
+  explicit NetLines(const Coefficients<float>& c, Instructions instructions = Instructions::best);
 
   /// Room for one thread's intermediate rows.
   struct Workspace {
@@ -55,6 +58,7 @@ class NetLines {
   Recipe make_recipe(int y, int z) const;
 
   const Coefficients<float>& c_;
+  Instructions instructions_;
   std::int64_t pitch_, sample_pitch_;
   std::vector<Recipe> recipes_;  ///< number 8 * (z mod 8) + y mod 8
 };
