@@ -20,9 +20,12 @@ struct Grid {
   const std::uint16_t *min, *max;
 };
 
-glm::i64vec3 block_count(const glm::i64vec3& size, int factor) { return (size + std::int64_t(factor - 1)) / std::int64_t(factor); }
+glm::i64vec3 block_count(const glm::i64vec3& size, int factor) {
+  return (size + std::int64_t(factor - 1)) / std::int64_t(factor);
+}
 
-/// Reduces the rows y0 <= y < y1, z0 <= z < z1 of `grid` to one row of blocks. `low` and `high` hold grid.size.x numbers.
+/// Reduces the rows y0 <= y < y1, z0 <= z < z1 of `grid` to one row of blocks. `low` and `high` hold grid.size.x
+/// numbers.
 void reduce_rows(const Grid& grid, int factor, std::int64_t y0, std::int64_t y1, std::int64_t z0, std::int64_t z1,
                  std::uint16_t* low, std::uint16_t* high, std::uint16_t* min, std::uint16_t* max) {
   const std::int64_t n = grid.size.x;
@@ -72,7 +75,8 @@ BlockBounds block_bounds(const CellBounds& cells, int block) {
   } else {
     std::vector<std::uint16_t> min, max;
     reduce(grid, kFirstBlock, min, max);
-    reduce({block_count(cells.cells, kFirstBlock), min.data(), max.data()}, block / kFirstBlock, bounds.min, bounds.max);
+    reduce({block_count(cells.cells, kFirstBlock), min.data(), max.data()}, block / kFirstBlock, bounds.min,
+           bounds.max);
   }
   return bounds;
 }

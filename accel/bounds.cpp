@@ -1,28 +1,29 @@
 // Bounds of the bcc7 spline over cells.
 //
 // On a tetrahedron the spline lies between the least and the largest of its Bernstein coefficients, and those of the
-// cell's 6 tetrahedra are the net at the cell's 5^3 quarter-grid points: [lo, hi], w = hi - lo. That interval is widened
-// by what 32-bit floats may add. Let e = 2^-24, m the largest |coefficient| that reaches the cell or one of its 26
-// neighbours (magnitude.h), and d the largest 1-norm, in cells, of the distance between a point that a kernel means
+// cell's 6 tetrahedra are the net at the cell's 5^3 quarter-grid points: [lo, hi], w = hi - lo. That interval is
+// widened by what 32-bit floats may add. Let e = 2^-24, m the largest |coefficient| that reaches the cell or one of its
+// 26 neighbours (magnitude.h), and d the largest 1-norm, in cells, of the distance between a point that a kernel means
 // and the one it computes. The margin on either side is
 //
 //   4 w d  +  24 m d^2  +  K e m  +  tiny
 //
-// Position. Each axis is an edge direction of every tetrahedron, so a partial derivative is 4 times a difference
-// of two neighbouring Bernstein coefficients, at most 4 w in absolute value: to first order a displacement changes the value
+// Position. Each axis is an edge direction of every tetrahedron, so a partial derivative is 4 times a difference of two
+// neighbouring Bernstein coefficients, at most 4 w in absolute value: to first order a displacement changes the value
 // by 4 w d. It may leave the cell. The spline is C2 and its second derivatives are 12 times second differences of the
-// net, at most 12 * 2 * (2 m) with the neighbour's width at most 2 m; half of that times d^2 is the rest of Taylor's formula. A kernel
-// computes o + t d per axis from numbers rounded once, relative to the volume's middle: with n cells along the axis
-// o and the sum err by n e / 2 each, d t and the product by n e each, t (which moves along the ray) by 3 n e through the
-// exit it comes from: 6 n e an axis. So d = 6 e (nx + ny + nz), and at least 2^-13, which is an error of 4e-5 in each axis.
+// net, at most 12 * 2 * (2 m) with the neighbour's width at most 2 m; half of that times d^2 is the rest of Taylor's
+// formula. A kernel computes o + t d per axis from numbers rounded once, relative to the volume's middle: with n cells
+// along the axis o and the sum err by n e / 2 each, d t and the product by n e each, t (which moves along the ray) by 3
+// n e through the exit it comes from: 6 n e an axis. So d = 6 e (nx + ny + nz), and at least 2^-13, which is an error
+// of 4e-5 in each axis.
 //
-// Evaluation. In monomial form about the even corner (32 coefficients from 30 samples, then Horner's rule, arguments in [0,1]) the
-// error is at most e times the sum over the operations of their largest results: 111 e m for the coefficients, 57 e m for
-// Horner's rule at the far corner, 170 e m together. The 5 Bernstein coefficients along a ray from 5 values of the polynomial
-// weigh the values' errors by up to 274/18; on alternating signs, where most cancels, those of the coefficients stay
-// below 25 e m (tests/accel/bounds_test.cpp). The net here is computed within 32 e m (net_line.h). K = 512 holds each of them
-// with room to spare and costs about one step of the 16 bits.
-// Numbers too small for the float format may be flushed to zero: tiny = 2^-110 is 2^16 of the least normal numbers.
+// Evaluation. In monomial form about the even corner (32 coefficients from 30 samples, then Horner's rule, arguments in
+// [0,1]) the error is at most e times the sum over the operations of their largest results: 111 e m for the
+// coefficients, 57 e m for Horner's rule at the far corner, 170 e m together. The 5 Bernstein coefficients along a ray
+// from 5 values of the polynomial weigh the values' errors by up to 274/18; on alternating signs, where most cancels,
+// those of the coefficients stay below 25 e m (tests/accel/bounds_test.cpp). The net here is computed within 32 e m
+// (net_line.h). K = 512 holds each of them with room to spare and costs about one step of the 16 bits. Numbers too
+// small for the float format may be flushed to zero: tiny = 2^-110 is 2^16 of the least normal numbers.
 //
 // Coefficients are supposed to be below 1e36 in absolute value: above, floats overflow in any kernel.
 #include "accel/bounds.h"
@@ -37,7 +38,6 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <optional>
 
 #include "accel/magnitude.h"
 #include "accel/net_line.h"
@@ -78,22 +78,25 @@ Range coefficient_range(const std::vector<float>& data) {
         }
         return Range{low, high};
       },
-      [](const Range& a, const Range& b) { return Range{std::min(a.low, b.low), std::max(a.high, b.high)}; });
+      [](const Range& a, const Range& b) {
+        return Range{std::min(a.low, b.low), std::max(a.high, b.high)};
+      });
 }
 
-/// Sets low and step so that value(0) and value(65535) enclose every widened interval: the net's values are means of the
-/// coefficients, and the margin grows with width and magnitude.
+/// Sets low and step so that value(0) and value(65535) enclose every widened interval: the net's values are means of
+/// the coefficients, and the margin grows with width and magnitude.
 void set_scale(const Range& range, const Margin& margin, CellBounds& bounds) {
   const double low = range.low, high = range.high, m = std::max(std::abs(low), std::abs(high));
-  const double around = margin.per_width * (high - low + 64.0 * kEpsilon * m) + (margin.per_magnitude + 64.0 * kEpsilon) * m +
-                        2.0 * kTiny;
+  const double around = margin.per_width * (high - low + 64.0 * kEpsilon * m) +
+                        (margin.per_magnitude + 64.0 * kEpsilon) * m + 2.0 * kTiny;
   bounds.low = low - around;
   bounds.step = (high + around - bounds.low) / 65535.0;
-  while (bounds.value(65535) < high + around) bounds.step = std::nextafter(bounds.step, std::numeric_limits<double>::max());
+  while (bounds.value(65535) < high + around)
+    bounds.step = std::nextafter(bounds.step, std::numeric_limits<double>::max());
 }
 
-/// Widens the net's range of the cells 2i + parity, i < n, by the margin and rounds it outwards; `magnitude` is indexed by i.
-/// Strides of 2 in the result: the other parity comes between.
+/// Widens the net's range of the cells 2i + parity, i < n, by the margin and rounds it outwards; `magnitude` is indexed
+/// by i. Strides of 2 in the result: the other parity comes between.
 void quantise(const CellBounds& bounds, const Margin& margin, const float* low, const float* high,
               const float* magnitude, std::int64_t n, std::uint16_t* min, std::uint16_t* max) {
   const double origin = bounds.low, step = bounds.step, inverse = 1.0 / step;

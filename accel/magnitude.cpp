@@ -13,7 +13,8 @@ void widen(float* into, const float* from, std::int64_t n) {
   for (std::int64_t i = 0; i < n; ++i) into[i] = into[i] < from[i] ? from[i] : into[i];
 }
 
-/// The largest |coefficient| of both cosets within kReach along x of each i of the row (j,k); `scratch` holds n numbers.
+/// The largest |coefficient| of both cosets within kReach along x of each i of the row (j,k); `scratch` holds n
+/// numbers.
 void row_magnitudes(const Coefficients<float>& c, std::int64_t j, std::int64_t k, float* scratch, float* row) {
   const std::int64_t n = c.extents.x;
   const float* even = c.data.data() + c.number(0, {0, j, k});

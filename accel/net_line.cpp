@@ -12,11 +12,11 @@
 namespace quincunx {
 namespace {
 
-constexpr int kPeriod = 8;    // quarter units between samples of a coset along an axis
-constexpr int kLanes = 8;     // floats of one AVX2 register; two registers where there is no AVX2
-constexpr int kBlock = 8;     // registers that a pass over the taps fills
-constexpr int kGrain = 16;    // rows are padded to a multiple of this many floats
-constexpr int kBefore = 1;    // samples that a line takes before its first and after its last
+constexpr int kPeriod = 8;  // quarter units between samples of a coset along an axis
+constexpr int kLanes = 8;   // floats of one AVX2 register; two registers where there is no AVX2
+constexpr int kBlock = 8;   // registers that a pass over the taps fills
+constexpr int kGrain = 16;  // rows are padded to a multiple of this many floats
+constexpr int kBefore = 1;  // samples that a line takes before its first and after its last
 
 /// Unaligned loads and stores of kLanes floats, lane by lane as written.
 typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(alignof(float)), may_alias));
@@ -26,11 +26,11 @@ struct Line {
   const float* const* rows;  ///< the rows of samples, each from index -kBefore
   const int* group_end;
   int groups;
-  std::int64_t read;    ///< samples to read of each row
-  std::int64_t pitch;   ///< floats of a row of the net, a multiple of kGrain
+  std::int64_t read;   ///< samples to read of each row
+  std::int64_t pitch;  ///< floats of a row of the net, a multiple of kGrain
   std::int64_t sample_pitch;
-  float* samples;       ///< groups * sample_pitch
-  float* net;           ///< kPeriod * pitch
+  float* samples;  ///< groups * sample_pitch
+  float* net;      ///< kPeriod * pitch
 };
 
 /// Sums the rows of each group. What is past the end repeats the last sample: finite, and read by no cell.
@@ -111,7 +111,8 @@ template <int Registers>
 
 using WidenRows = void (*)(const Line&, const NetLines::Tap*, const int*, RowRange* const*, int);
 
-void widen_rows_portable(const Line& line, const NetLines::Tap* taps, const int* tap_end, RowRange* const* rows, int count) {
+void widen_rows_portable(const Line& line, const NetLines::Tap* taps, const int* tap_end, RowRange* const* rows,
+                         int count) {
   widen_rows(line, taps, tap_end, rows, count);
 }
 
@@ -176,7 +177,8 @@ NetLines::Recipe NetLines::make_recipe(int y, int z) const {
 NetLines::Workspace NetLines::workspace() const {
   std::size_t groups = 0;
   for (const Recipe& r : recipes_) groups = std::max(groups, r.group_end.size() - 1);
-  return {std::vector<float>(groups * std::size_t(sample_pitch_)), std::vector<float>((kPeriod + 1) * std::size_t(pitch_))};
+  return {std::vector<float>(groups * std::size_t(sample_pitch_)),
+          std::vector<float>((kPeriod + 1) * std::size_t(pitch_))};
 }
 
 RowRange NetLines::empty_range() const {
@@ -194,9 +196,16 @@ void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* 
   const float* rows[kMostRows];
   assert(recipe.rows.size() <= kMostRows);
   for (std::size_t r = 0; r < recipe.rows.size(); ++r) rows[r] = base + recipe.rows[r];
-  const Line line{rows,   recipe.group_end.data(), int(recipe.group_end.size()) - 1, c_.extents.x + 2 * kBefore,
-                  pitch_, sample_pitch_,           work.samples.data(),              work.net.data()};
-  (instructions_ == Instructions::best ? best : widen_rows_portable)(line, recipe.taps.data(), recipe.tap_end, ranges, count);
+  const Line line{rows,
+                  recipe.group_end.data(),
+                  int(recipe.group_end.size()) - 1,
+                  c_.extents.x + 2 * kBefore,
+                  pitch_,
+                  sample_pitch_,
+                  work.samples.data(),
+                  work.net.data()};
+  (instructions_ == Instructions::best ? best : widen_rows_portable)(line, recipe.taps.data(), recipe.tap_end, ranges,
+                                                                     count);
 }
 
 }  // namespace quincunx

@@ -50,10 +50,10 @@ class NetLines {
  private:
   /// What lines of one residue of (y,z) modulo 8 are made of.
   struct Recipe {
-    std::vector<std::int64_t> rows;   ///< relative to the sample (0; 0, y/8, z/8)
-    std::vector<int> group_end{0};    ///< group g sums rows [group_end[g], group_end[g+1])
-    std::vector<Tap> taps;            ///< by residue of x
-    int tap_end[9] = {};              ///< residue a takes taps [tap_end[a], tap_end[a+1])
+    std::vector<std::int64_t> rows;  ///< relative to the sample (0; 0, y/8, z/8)
+    std::vector<int> group_end{0};   ///< group g sums rows [group_end[g], group_end[g+1])
+    std::vector<Tap> taps;           ///< by residue of x
+    int tap_end[9] = {};             ///< residue a takes taps [tap_end[a], tap_end[a+1])
   };
   Recipe make_recipe(int y, int z) const;
 

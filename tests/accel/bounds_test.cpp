@@ -38,7 +38,9 @@ class Points {
     return u;
   }
   /// What the rounding of a ray may do to a point: up to 4e-5 of a cell in each axis.
-  glm::dvec3 shift() { return 4e-5 * (2.0 * glm::dvec3(uniform_(random_), uniform_(random_), uniform_(random_)) - 1.0); }
+  glm::dvec3 shift() {
+    return 4e-5 * (2.0 * glm::dvec3(uniform_(random_), uniform_(random_), uniform_(random_)) - 1.0);
+  }
 
  private:
   glm::i64vec3 cells_;
@@ -59,8 +61,8 @@ struct Check {
   }
 };
 
-/// Looks at the spline in double, and at what floats make of its value and of its Bernstein coefficients on a piece of a ray,
-/// at displaced points, from each cell that the point belongs to, in the bounds of all of them.
+/// Looks at the spline in double, and at what floats make of its value and of its Bernstein coefficients on a piece of
+/// a ray, at displaced points, from each cell that the point belongs to, in the bounds of all of them.
 Check check_bounds(const CellBounds& bounds, const Coefficients<float>& c, int points) {
   const Bcc7 spline;
   const Coefficients<double> exact = in_double(c);
@@ -113,11 +115,13 @@ TEST(Bounds, TheCheckSeesBoundsThatAreTooTight) {
 }
 
 TEST(Bounds, ErrorsOfFloatsAreATenthOfTheEvaluationMarginWhereMostCancels) {
-  // Errors of interpolated Bernstein coefficients where cancellation is worst, in units of 2^-24 of the largest coefficient.
+  // Errors of interpolated Bernstein coefficients where cancellation is worst, in units of 2^-24 of the largest
+  // coefficient.
   const Bcc7 spline;
   double worst = 0.0;
   for (const CoefficientSet& set : coefficient_sets()) {
-    if (set.name != "random signs" && set.name != "cosets of opposite sign" && set.name != "checkerboard of both cosets")
+    if (set.name != "random signs" && set.name != "cosets of opposite sign" &&
+        set.name != "checkerboard of both cosets")
       continue;
     const Coefficients<double> exact = in_double(set.c);
     const glm::i64vec3 cells = domain_max(set.c.lattice, set.c.extents);
@@ -131,7 +135,8 @@ TEST(Bounds, ErrorsOfFloatsAreATenthOfTheEvaluationMarginWhereMostCancels) {
       double truth[5];
       spline.restrict_to_segment(exact, cell, point(a), point(b), truth);
       const std::array<float, 5> found = FloatPiece(set.c, t).bernstein(a, b);
-      for (std::size_t i = 0; i < 5; ++i) worst = std::max(worst, std::abs(double(found[i]) - truth[i]) / (m * 0x1p-24));
+      for (std::size_t i = 0; i < 5; ++i)
+        worst = std::max(worst, std::abs(double(found[i]) - truth[i]) / (m * 0x1p-24));
     }
   }
   RecordProperty("worst", std::to_string(worst));
@@ -175,7 +180,8 @@ TEST(Bounds, OfAConstantAreNoWiderThanRoundingAsks) {
 }
 
 TEST(Bounds, OneSampleAlongAnAxisMakesOneCell) {
-  EXPECT_EQ(bcc7_bounds(make_coefficients({1, 1, 1}, [](int, const glm::i64vec3&) { return 1.0; })).cells, glm::i64vec3(1));
+  EXPECT_EQ(bcc7_bounds(make_coefficients({1, 1, 1}, [](int, const glm::i64vec3&) { return 1.0; })).cells,
+            glm::i64vec3(1));
   EXPECT_EQ(bcc7_bounds(make_coefficients({2, 1, 5}, [](int, const glm::i64vec3&) { return 1.0; })).cells,
             glm::i64vec3(3, 1, 9));
 }

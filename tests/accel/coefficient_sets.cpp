@@ -5,7 +5,8 @@
 
 namespace quincunx {
 
-Coefficients<float> make_coefficients(const Extents& extents, const std::function<double(int, const glm::i64vec3&)>& value) {
+Coefficients<float> make_coefficients(const Extents& extents,
+                                      const std::function<double(int, const glm::i64vec3&)>& value) {
   Coefficients<float> c;
   c.extents = extents;
   c.apron = 1;
@@ -36,16 +37,23 @@ std::vector<CoefficientSet> coefficient_sets() {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto noise = [&](double middle, double amplitude) {
-    return [&uniform, &random, middle, amplitude](int, const glm::i64vec3&) { return middle + amplitude * uniform(random); };
+    return [&uniform, &random, middle, amplitude](int, const glm::i64vec3&) {
+      return middle + amplitude * uniform(random);
+    };
   };
   const auto sign = [&](int, const glm::i64vec3&) { return uniform(random) < 0.0 ? -1.0 : 1.0; };
   const auto by_coset = [](int coset, const glm::i64vec3&) { return coset == 0 ? 1.0 : -1.0; };
   const auto checkerboard = [](int, const glm::i64vec3& p) { return (p.x + p.y + p.z) % 2 == 0 ? 3.0 : -3.0; };
-  const auto spike = [](int coset, const glm::i64vec3& p) { return coset == 1 && p == glm::i64vec3(4, 3, 2) ? 1e6 : 1.0; };
-  const auto ramp = [](int coset, const glm::i64vec3& p) { return double(coset) + 2.0 * double(p.x) + 10.0 * double(p.z); };
+  const auto spike = [](int coset, const glm::i64vec3& p) {
+    return coset == 1 && p == glm::i64vec3(4, 3, 2) ? 1e6 : 1.0;
+  };
+  const auto ramp = [](int coset, const glm::i64vec3& p) {
+    return double(coset) + 2.0 * double(p.x) + 10.0 * double(p.z);
+  };
 
   std::vector<CoefficientSet> sets;
-  const auto add = [&](const char* name, const Extents& extents, const std::function<double(int, const glm::i64vec3&)>& f) {
+  const auto add = [&](const char* name, const Extents& extents,
+                       const std::function<double(int, const glm::i64vec3&)>& f) {
     sets.push_back({name, make_coefficients(extents, f)});
   };
   add("noise", {19, 11, 7}, noise(0.0, 1.0));

@@ -81,7 +81,8 @@ float FloatPiece::value(const glm::vec3& w) const {
 
 std::array<float, 5> FloatPiece::bernstein(const glm::vec3& a, const glm::vec3& b) const {
   const glm::vec3 d = b - a;
-  const float f0 = value(a), f1 = value(a + 0.25f * d), f2 = value(a + 0.5f * d), f3 = value(a + 0.75f * d), f4 = value(b);
+  const float f0 = value(a), f1 = value(a + 0.25f * d), f2 = value(a + 0.5f * d), f3 = value(a + 0.75f * d),
+              f4 = value(b);
   return {f0, (-13.0f * f0 + 48.0f * f1 - 36.0f * f2 + 16.0f * f3 - 3.0f * f4) * (1.0f / 12.0f),
           (13.0f * (f0 + f4) - 64.0f * (f1 + f3) + 120.0f * f2) * (1.0f / 18.0f),
           (-13.0f * f4 + 48.0f * f3 - 36.0f * f2 + 16.0f * f1 - 3.0f * f0) * (1.0f / 12.0f), f4};

@@ -8,8 +8,9 @@
 
 namespace quincunx {
 
-/// The quartic of the bcc7 spline on a tetrahedron as 35 monomials (3 of them 0) of its frame's coordinates (w1, w2, w3), every operation in
-/// floats: the monomials' coefficients from the samples by integer weights, then Horner's rule, then 1/384.
+/// The quartic of the bcc7 spline on a tetrahedron as 35 monomials (3 of them 0) of its frame's coordinates (w1, w2,
+/// w3), every operation in floats: the monomials' coefficients from the samples by integer weights, then Horner's rule,
+/// then 1/384.
 class FloatPiece {
  public:
   FloatPiece(const Coefficients<float>& c, const Tetrahedron& tetrahedron);

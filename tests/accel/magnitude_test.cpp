@@ -9,7 +9,8 @@
 namespace quincunx {
 namespace {
 
-/// The largest |coefficient| at lattice points u, low <= u <= high, by walking all of them. Beyond the apron there are none.
+/// The largest |coefficient| at lattice points u, low <= u <= high, by walking all of them. Beyond the apron there are
+/// none.
 float largest(const Coefficients<float>& c, const glm::i64vec3& low, const glm::i64vec3& high) {
   float found = 0.0f;
   for (std::int64_t z = low.z; z <= high.z; ++z)
@@ -18,7 +19,8 @@ float largest(const Coefficients<float>& c, const glm::i64vec3& low, const glm::
         const std::int64_t coset = x & 1;
         if ((y & 1) != coset || (z & 1) != coset) continue;
         const glm::i64vec3 p = (glm::i64vec3(x, y, z) - coset) / std::int64_t(2);
-        if (glm::any(glm::lessThan(p, glm::i64vec3(-c.apron))) || glm::any(glm::greaterThanEqual(p, c.extents + std::int64_t(c.apron))))
+        if (glm::any(glm::lessThan(p, glm::i64vec3(-c.apron))) ||
+            glm::any(glm::greaterThanEqual(p, c.extents + std::int64_t(c.apron))))
           continue;
         found = std::max(found, std::abs(c.data[c.number(int(coset), p)]));
       }
@@ -32,7 +34,8 @@ TEST(Magnitudes, CoverTheSamplesOfACellAndItsNeighboursAndLittleMore) {
     // In boxes of rows, as tiles ask for them.
     for (std::int64_t k0 = 0; k0 < set.c.extents.z; k0 += 4)
       for (std::int64_t j0 = 0; j0 < set.c.extents.y; j0 += 4) {
-        const std::int64_t count_j = std::min<std::int64_t>(4, set.c.extents.y - j0), count_k = std::min<std::int64_t>(4, set.c.extents.z - k0);
+        const std::int64_t count_j = std::min<std::int64_t>(4, set.c.extents.y - j0),
+                           count_k = std::min<std::int64_t>(4, set.c.extents.z - k0);
         magnitudes.compute(set.c, j0, count_j, k0, count_k);
         for (std::int64_t k = k0; k < k0 + count_k; ++k)
           for (std::int64_t j = j0; j < j0 + count_j; ++j)
