@@ -1,0 +1,54 @@
+// How fast the error falls when the spacing does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/spline/spline_fixtures.h"
+
+namespace quincunx {
+namespace {
+
+/// A smooth function of the unit cube.
+double smooth(const glm::dvec3& x) { return std::sin(5.0 * x.x + 2.0 * x.y) * std::cos(4.0 * x.y - 3.0 * x.z + 0.3) + x.z * x.x; }
+
+/// RMS error in the middle of the unit cube at spacing 1/cells.
+double rms_error(const Spline& spline, int cells, Spline::Prefilter prefilter) {
+  const double h = 1.0 / cells;
+  const Extents extents(cells / lattice_step(spline.lattice()) + 1);
+  const auto c = spline.coefficients(volume_of(spline.lattice(), extents, [&](const glm::dvec3& u) { return smooth(h * u); }), prefilter);
+  Random random(1);
+  double sum = 0.0;
+  const int points = 4000;
+  for (int n = 0; n < points; ++n) {
+    const glm::dvec3 x = random.point(glm::dvec3(0.4), glm::dvec3(0.6));
+    const double error = spline.evaluate(c, x / h).value - smooth(x);
+    sum += error * error;
+  }
+  return std::sqrt(sum / points);
+}
+
+struct Order {
+  std::string_view name;
+  double with_prefilter, without;
+};
+constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0}};
+
+TEST(Convergence, HasItsApproximationOrderWithPrefilterAndTwoWithout) {
+  for (const Order& order : kOrders) {
+    const auto spline = make_spline(order.name);
+    for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::quasi_interpolation}) {
+      const double expected = prefilter == Spline::Prefilter::none ? order.without : order.with_prefilter;
+      double coarse = rms_error(*spline, 16, prefilter);
+      for (const int cells : {24, 36, 54}) {
+        const double fine = rms_error(*spline, cells, prefilter);
+        const double measured = std::log(coarse / fine) / std::log(1.5);
+        EXPECT_GT(measured, expected - 0.2) << order.name << " at 1/" << cells;
+        EXPECT_LT(measured, expected + 0.2) << order.name << " at 1/" << cells;
+        coarse = fine;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quincunx
