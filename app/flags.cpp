@@ -49,12 +49,10 @@ CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& valu
   const auto parse = [&value, flag](const std::vector<std::string>& texts) {
     for (int axis = 0; axis < 3; ++axis) value[axis] = parse_number(texts[std::size_t(axis)], flag);
   };
-  return app.add_option_function<std::vector<std::string>>(flag, parse, help)->type_name("X Y Z")->type_size(3)->expected(1);
-}
-
-CLI::Option* add_color(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help) {
-  const auto parse = [&value, flag](const std::string& text) { value = parse_color(text, flag); };
-  return add_parsed(app, flag, parse, "COLOR", "", help);
+  return app.add_option_function<std::vector<std::string>>(flag, parse, help)
+      ->type_name("X Y Z")
+      ->type_size(3)
+      ->expected(1);
 }
 
 CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string& value,

@@ -30,9 +30,6 @@ CLI::Option* add_integer(CLI::App& app, const std::string& flag, int& value, int
 /// A flag of three finite numbers, "--flag x y z".
 CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help);
 
-/// A flag of one colour (parse_color).
-CLI::Option* add_color(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help);
-
 /// A flag whose value is one of `choices`, shown in --help.
 CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string& value,
                              const std::vector<std::string>& choices, const std::string& help);

@@ -29,16 +29,13 @@ int fail(int status, std::string message) {
 std::string explain_parse_error(CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   const std::string command = chosen.empty() ? "quincunx" : "quincunx " + chosen.front()->get_name();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    const std::vector<std::string> extras = program.remaining(true);
-    const auto flag = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with('-'); });
-    const std::string& found = flag != extras.end() ? *flag : extras.front();
-    const char* kind = flag != extras.end() ? "unknown flag"
-                       : chosen.empty()     ? "unknown sub-command"
-                                            : "unexpected argument";
-    return fmt::format("{} '{}', expected those of '{} --help'", kind, found, command);
-  }
-  return fmt::format("{}; see '{} --help'", error.what(), command);
+  const std::vector<std::string> extras = program.remaining(true);
+  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || chosen.empty();
+  if (!extra || extras.empty()) return fmt::format("{}; see '{} --help'", error.what(), command);
+  const auto flag = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with('-'); });
+  const std::string kind = flag != extras.end() ? "flag" : chosen.empty() ? "sub-command" : "argument";
+  return fmt::format("unknown {} '{}', expected those of '{} --help'", kind,
+                     flag != extras.end() ? *flag : extras.front(), command);
 }
 
 int run_program(int argc, char** argv) {

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -27,11 +29,18 @@ struct Outcome {
   SampleRange range;  ///< of the samples
 };
 
+/// Whether write_image makes an OpenEXR file of `path`: the extension decides, whatever its case.
+bool is_exr(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".exr";
+}
+
 void write_outputs(const RenderFlags& flags, const Frame& frame, const Json& stats) {
-  const Image image = to_image(frame);
+  const Image channels = to_image(frame), opaque = to_opaque_image(frame);
   for (const std::string& path : flags.images) {
     stop_if_interrupted();
-    write_image(image, path);
+    write_image(flags.background_given && !is_exr(path) ? opaque : channels, path);
   }
   if (flags.stats.empty()) return;
   const std::string text = stats.dump(2) + "\n";

@@ -60,7 +60,12 @@ void add_surface_flags(CLI::App& app, RenderFlags& flags) {
       ->group(group);
   add_number(app, "--ambient", flags.scene.ambient, {0.0, 1.0}, "Part of the colour that no light is needed for")
       ->group(group);
-  add_color(app, "--background", flags.scene.background, "Colour behind everything; else black")->group(group);
+  const auto background = [&flags](const std::string& text) {
+    flags.scene.background = parse_color(text, "--background");
+    flags.background_given = true;
+  };
+  add_parsed(app, "--background", background, "COLOR", "", "Colour behind everything; else black, transparent in .png")
+      ->group(group);
 }
 
 void add_output_flags(CLI::App& app, RenderFlags& flags) {
@@ -125,7 +130,8 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
                  "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
       ->type_name("D")
       ->group(group);
-  add_integer(app, "--repeat", flags.repeat, 1, 100000, "Frames to trace and time; where several, one more before them warms up")
+  add_integer(app, "--repeat", flags.repeat, 1, 100000,
+              "Frames to trace and time; where several, one more before them warms up")
       ->group(group);
   app.add_flag("--validate", flags.config.validation, "Turn Vulkan's validation layers on; any message is a failure")
       ->group(group);

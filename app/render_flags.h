@@ -18,7 +18,8 @@ struct RenderFlags {
   std::vector<double> isovalues, opacities;
   std::vector<glm::dvec3> colors;
   CameraFlags camera;
-  Scene scene;  ///< all but its surfaces and camera
+  Scene scene;                    ///< all but its surfaces and camera
+  bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through
   SkipConfig skip;
   Renderer::Config config;
   std::string device;

@@ -47,6 +47,16 @@ Image to_image(const Frame& frame) {
   return image;
 }
 
+Image to_opaque_image(const Frame& frame) {
+  Image image{.width = frame.width, .height = frame.height, .channels = {"R", "G", "B"}, .pixels = {}};
+  image.pixels.reserve(frame.color.size() / 4 * 3);
+  for (std::size_t first = 0; first < frame.color.size(); first += 4) {
+    image.pixels.insert(image.pixels.end(), frame.color.begin() + std::ptrdiff_t(first),
+                        frame.color.begin() + std::ptrdiff_t(first + 3));
+  }
+  return image;
+}
+
 double percentile(std::vector<double> values, double fraction) {
   assert(!values.empty() && fraction >= 0.0 && fraction <= 1.0);
   std::sort(values.begin(), values.end());

@@ -13,6 +13,9 @@ namespace quincunx {
 /// The frame's planes as channels R G B A Z N.X N.Y N.Z [cost.evaluations cost.steps cost.intervals].
 Image to_image(const Frame& frame);
 
+/// The frame over its background as channels R G B: nothing behind it shows through.
+Image to_opaque_image(const Frame& frame);
+
 /// The value below which `fraction` (0..1) of the values lie, between two by linear interpolation; values not empty.
 double percentile(std::vector<double> values, double fraction);
 

@@ -29,6 +29,16 @@ namespace {
   ::_exit(127);
 }
 
+/// Whether the process has a handler for `signal`: the mask SigCgt of /proc, hexadecimal, bit signal - 1.
+bool catches(pid_t process, int signal) {
+  std::ifstream file(fmt::format("/proc/{}/status", process));
+  for (std::string word; file >> word;) {
+    if (word != "SigCgt:" || !(file >> word)) continue;
+    return (std::stoull(word, nullptr, 16) >> (signal - 1) & 1u) != 0;
+  }
+  return false;
+}
+
 }  // namespace
 
 Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool()>& ready) {
@@ -44,7 +54,7 @@ Outcome run_and_signal(const Arguments& arguments, int signal, const std::functi
     const pid_t ended = ::waitpid(child, &wait_status, ready && !sent ? WNOHANG : 0);
     if (ended == child) break;
     if (ended < 0 && errno != EINTR) throw std::runtime_error("waitpid failed");
-    if (ended == 0 && ready()) {
+    if (ended == 0 && !sent && catches(child, signal) && ready()) {
       sent = true;
       ::kill(child, signal);
     }

@@ -22,7 +22,7 @@ struct Outcome {
 /// Runs quincunx with `arguments` to its end.
 Outcome run(const Arguments& arguments);
 
-/// Runs quincunx until `ready` says so, sends it `signal`, and waits for its end.
+/// Runs quincunx until it listens to `signal` and `ready` says so, sends it the signal, and waits for its end.
 /// Where the program ends by itself before that, that is its outcome.
 Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool()>& ready);
 

@@ -8,6 +8,7 @@
 
 #include "io/image_file.h"
 #include "io/volume_file.h"
+#include "lattice/field.h"
 #include "program.h"
 
 namespace quincunx::test {
@@ -20,10 +21,7 @@ using testing::IsSupersetOf;
 /// A folder with a sphere of radius 0.8 in the cube [-1,1]^3, 10^3 samples a coset (sphere.nrrd, isovalue 0).
 class Render : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto made = run({"sample", "sphere", volume, "--lattice", "bcc", "--dims", "10", "10", "10"});
-    ASSERT_EQ(made.status, 0) << made.err;
-  }
+  void SetUp() override { write_volume(sample_field(*make_field("sphere"), LatticeKind::bcc, {10, 10, 10}), volume); }
 
   /// `render` of the sphere with more arguments.
   Outcome render(const Arguments& more) const {
@@ -168,6 +166,16 @@ TEST_F(Render, PutsTheColourAndTheBackgroundWhereTheyBelong) {
   EXPECT_NEAR(at(image, "B", 0, 0), 0.5, 1e-6);
 }
 
+TEST_F(Render, HidesWhatIsBehindAPngOnlyWhereABackgroundWasAskedFor) {
+  const Arguments cpu{"-o", folder / "a.png", "--device", "cpu"};
+  ASSERT_EQ(render(cpu).status, 0);
+  EXPECT_EQ(at(read_image(folder / "a.png"), "A", 0, 0), 0.0f);
+  ASSERT_EQ(render(cpu + Arguments{"--background", "#00ff00"}).status, 0);
+  const Image opaque = read_image(folder / "a.png");
+  EXPECT_EQ(opaque.channels.size(), 3u);
+  EXPECT_EQ(at(opaque, "G", 0, 0), 1.0f);
+}
+
 TEST_F(Render, LetsTheInnerSurfaceShowThroughTheOuterOne) {
   const Outcome outcome = run({"render", volume, "--iso", "0,0.5", "--opacity", "0.25,1", "--ambient", "1", "--color",
                                "#ff0000,#0000ff", "--size", "40", "30", "-o", folder / "a.exr", "--device", "cpu"});
@@ -195,7 +203,7 @@ TEST_F(Render, TellsWhenNothingWasHit) {
   const Outcome outcome =
       run({"render", volume, "--iso", "7", "--size", "8", "8", "-o", folder / "a.png", "--device", "cpu"});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("nothing was hit"), HasSubstr("0.64")));
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("nothing was hit"), HasSubstr("-2.36 to 0.63")));
 }
 
 }  // namespace

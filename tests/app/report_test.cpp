@@ -21,6 +21,12 @@ TEST(Report, InterleavesTheFramesPlanesAsNamedChannels) {
   EXPECT_EQ(image.pixels, (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13, 14, 15, 16, 17, 18}));
 }
 
+TEST(Report, LeavesTheOpacityOutOfAnOpaquePicture) {
+  const Frame frame{
+      .width = 2, .height = 1, .color = {1, 2, 3, 4, 11, 12, 13, 14}, .depth = {}, .normal = {}, .cost = {}};
+  EXPECT_EQ(to_opaque_image(frame).pixels, (std::vector<float>{1, 2, 3, 11, 12, 13}));
+}
+
 TEST(Report, AddsTheCostChannelsWhereTheFrameHasThem) {
   const Frame frame{
       .width = 1, .height = 1, .color = {1, 2, 3, 4}, .depth = {5}, .normal = {6, 7, 8}, .cost = {9, 10, 11}};

@@ -1,0 +1,39 @@
+#include "app/points_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lattice/error.h"
+#include "program.h"
+
+namespace quincunx::test {
+namespace {
+
+TEST(PointsFile, IsReadWithAndWithoutAHeaderAndAsWindowsWritesIt) {
+  const TemporaryFolder folder;
+  for (const char* text : {"x,y,z\n-1,8,15\n", "-1,8,15\n", "-1, 8 ,\t15", "x, y, z\r\n\r\n-1,8,15\r\n\r\n",
+                           "\xEF\xBB\xBFX,Y,Z\n-1,8,15\n"}) {
+    write_file(folder / "p.csv", text);
+    PointsFile file(folder / "p.csv");
+    EXPECT_EQ(file.next(), glm::dvec3(-1, 8, 15)) << text;
+    EXPECT_EQ(file.next(), std::nullopt) << text;
+  }
+}
+
+TEST(PointsFile, NamesFileAndLineOfWhatIsNoPoint) {
+  const TemporaryFolder folder;
+  for (const std::string bad : {"1,2", "1,2,3,4", "1,2,abc", "1,,3", "1 2 3", "nan,0,0", "1,2,1e999", "x,y,z"}) {
+    write_file(folder / "p.csv", "x,y,z\n0,0,0\n" + bad + "\n0,0,0\n");
+    PointsFile file(folder / "p.csv");
+    EXPECT_EQ(file.next(), glm::dvec3(0.0));
+    try {
+      file.next();
+      ADD_FAILURE() << bad;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("p.csv:3: found '")) << bad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quincunx::test
