@@ -90,10 +90,9 @@ TEST(Roots, AtTheEndsCountWhereTheSideChanges) {
   ASSERT_EQ(crossings({0, -1, -1}).size(), 1u) << "leaves 0 downwards at once";
   EXPECT_NEAR(crossings({0, -1, -1})[0], 0.0, 1e-15);
   EXPECT_THAT(crossings({0, 1, 1}), IsEmpty());
-  // x (1/2 - x) leaves 0 upwards; its crossing is at 1/2 and not the zero at 0. (x - 1)(x - 1/2): likewise at 1.
-  EXPECT_THAT(crossings({0, 0.25, -0.5}), ElementsAre(0.5));
-  ASSERT_EQ(crossings({-0.5, 0.25, 0}).size(), 1u);
-  EXPECT_NEAR(crossings({-0.5, 0.25, 0})[0], 0.5, 1e-15);
+  // x (0.3 - x) leaves 0 upwards; its crossing is at 0.3 and not the zero at 0. (1 - x)(x - 0.3): likewise at 1.
+  EXPECT_THAT(crossings({0, 0.15, -0.7}), ElementsAre(::testing::DoubleNear(0.3, 1e-15)));
+  EXPECT_THAT(crossings({-0.3, 0.35, 0}), ElementsAre(::testing::DoubleNear(0.3, 1e-15)));
 }
 
 TEST(Roots, OfHighMultiplicityAreFoundOnce) {

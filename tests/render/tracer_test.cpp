@@ -193,6 +193,61 @@ TEST(Tracer, CrossingsOnLatticePlanesEdgesAndPointsCountOnce) {
   }
 }
 
+/// x - 3, computed `error` too low in even cells and too high in odd ones: the surface x = 3 is on a plane between two.
+class RoundedRamp final : public Spline {
+ public:
+  explicit RoundedRamp(double error) : error_(error) {}
+  std::string_view name() const override { return "rounded ramp"; }
+  LatticeKind lattice() const override { return LatticeKind::bcc; }
+  int degree() const override { return 1; }
+  int apron() const override { return 0; }
+  std::string_view shader() const override { return ""; }
+  Jet generator(const glm::dvec3&) const override { return {}; }
+  Jet evaluate(const Coefficients<double>&, const glm::dvec3& u) const override { return {u.x - 3.0, {1.0, 0.0, 0.0}}; }
+  void split(const glm::ivec3&, const glm::dvec3&, const glm::dvec3&, double, double,
+             std::vector<double>&) const override {}
+  void restrict_to_segment(const Coefficients<double>&, const glm::ivec3& cell, const glm::dvec3& a,
+                           const glm::dvec3& b, std::span<double> bernstein) const override {
+    const double error = cell.x % 2 == 0 ? -error_ : error_;
+    bernstein[0] = a.x - 3.0 + error;
+    bernstein[1] = b.x - 3.0 + error;
+  }
+  Coefficients<double> coefficients(const Volume&, Prefilter, const Progress&) const override { return {}; }
+  Coefficients<float> coefficients_float(const Volume&, Prefilter, const Progress&) const override { return {}; }
+
+ private:
+  double error_;
+};
+
+TEST(Tracer, ARootThatRoundingPutsBetweenTwoPiecesIsFoundOnce) {
+  const auto c = QuadraticSpline::domain({4, 4, 4}, 1.0);
+  for (const double error : {1e-12, -1e-12}) {
+    const RoundedRamp spline(error);
+    const Tracer tracer(spline, c, std::array{0.0}, nullptr, kExact);
+    for (const double side : {1.0, -1.0})
+      EXPECT_THAT(crossing_distances(tracer, c, {3.0 - 10.0 * side, 2.2, 2.7}, {side, 0, 0}),
+                  ElementsAre(DoubleNear(10, 1e-11)))
+          << error;
+  }
+}
+
+TEST(Tracer, ARootThatRoundingPutsBetweenASkippedCellAndTheNextIsFound) {
+  // Bounds that let every cell below x = 3 be skipped, below the isovalue.
+  CellBounds bounds;
+  bounds.cells = glm::i64vec3(7);
+  bounds.low = -8.0;
+  bounds.step = 0x1p-12;
+  for (int n = 0; n < 343; ++n) {
+    const bool below = n % 7 < 3;
+    bounds.min.push_back(below ? 0 : (8 << 12) - 1);
+    bounds.max.push_back(below ? (8 << 12) - 1 : 0xffff);
+  }
+  const auto c = QuadraticSpline::domain({4, 4, 4}, 1.0);
+  const RoundedRamp spline(1e-12);
+  const Tracer tracer(spline, c, std::array{0.0}, &bounds, kExact);
+  EXPECT_THAT(crossing_distances(tracer, c, {-7, 2.2, 2.7}, {1, 0, 0}), ElementsAre(DoubleNear(10, 1e-11)));
+}
+
 TEST(Tracer, ConstantVolumesHoldNoSurface) {
   for (const double value : {0.1, 100.0, -3.3, 0.0, 1e30}) {
     const Sampled constant(bcc_volume({5, 5, 5}, [&](const glm::dvec3&) { return value; }));
@@ -283,6 +338,14 @@ TEST(Tracer, MarchAlsoSamplesTheExit) {
   const auto c = QuadraticSpline::domain({4, 4, 4}, 64.0);
   const Tracer tracer(spline, c, std::array{0.0}, nullptr, {Intersect::march, 3.0});
   EXPECT_THAT(crossing_distances(tracer, c, {-1, 3, 3}, {1, 0, 0}), ElementsAre(DoubleNear(7.5, 1e-12)));
+}
+
+TEST(Tracer, MarchEndsAtTheExit) {
+  // The ray leaves the domain at (7,3,3); the ball lies further along the face, where clamped samples would slide to.
+  const QuadraticSpline spline = ball({7, 5.5, 3}, 1.0);
+  const auto c = QuadraticSpline::domain({4, 4, 4}, 64.0);
+  const Tracer tracer(spline, c, std::array{0.0}, nullptr, {Intersect::march, 5.0});
+  EXPECT_THAT(crossing_distances(tracer, c, {5, 1, 3}, {1, 1, 0}), IsEmpty());
 }
 
 }  // namespace
