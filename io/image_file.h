@@ -20,9 +20,10 @@ struct Image {
 /// Writes an image by the path's extension, whole or not at all: beside, then renamed. The same image always makes
 /// the same bytes.
 ///   .exr  OpenEXR, 32-bit float, zip; every channel under its name, every value as it is (infinite ones too)
-///   .png  8-bit sRGB of the linear channels R G B, clamped to 0..1, not a number as 0; other channels are left out. Where there
-///         is a channel A, the colours are taken as multiplied by it and PNG's straight alpha is made: what is shown then
-///         depends on what the viewer puts behind. Leave A out for an opaque picture over its own background.
+///   .png  8-bit sRGB of the linear channels R G B, clamped to 0..1, not a number as 0; other channels are left out.
+///         Where there is a channel A, the colours are taken as multiplied by it and PNG's straight alpha is made:
+///         what is shown then depends on what the viewer puts behind. Leave A out for an opaque picture over its
+///         own background.
 /// Throws InputError for another extension, a place that cannot be written, or channels that do not fit.
 void write_image(const Image& image, const std::string& path);
 

@@ -1,6 +1,7 @@
 // Words and numbers of an NRRD header.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>

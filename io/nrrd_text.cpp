@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "lattice/error.h"
 
@@ -67,8 +68,8 @@ std::string unescape(std::string_view text) {
   return plain;
 }
 
-/// Adds one line that is neither empty nor a comment: "field: value" or "key:=value".
-void add_line(NrrdText& text, std::string_view line, std::size_t line_number) {
+/// Adds one line that is neither empty nor a comment: "field: value" or "key:=value"; `keys` are those seen so far.
+void add_line(NrrdText& text, std::set<std::string>& keys, std::string_view line, std::size_t line_number) {
   const auto refuse_line = [&](std::string_view what) {
     throw InputError(fmt::format("{}: header line {}: {}", text.path, line_number, what));
   };
@@ -88,8 +89,7 @@ void add_line(NrrdText& text, std::string_view line, std::size_t line_number) {
                             quoted(line)));
   }
   std::string key = unescape(line.substr(0, assignment));
-  const auto same = [&](const auto& pair) { return pair.first == key; };
-  if (std::any_of(text.pairs.begin(), text.pairs.end(), same)) {
+  if (!keys.insert(key).second) {
     refuse_line(fmt::format("key {} for the second time, expected it once", quoted(key)));
   }
   text.pairs.emplace_back(std::move(key), unescape(line.substr(assignment + 2)));
@@ -158,6 +158,7 @@ std::string escape_nrrd(std::string_view text) {
 NrrdText parse_nrrd_text(std::string_view bytes, const std::string& path) {
   NrrdText text;
   text.path = path;
+  std::set<std::string> keys;
   std::size_t line_number = 0;
   while (!text.ended && text.data_offset < bytes.size()) {
     // Take the next line, which ends with a newline (or carriage return and newline) or with the bytes.
@@ -174,7 +175,7 @@ NrrdText parse_nrrd_text(std::string_view bytes, const std::string& path) {
     } else if (line.empty()) {
       text.ended = true;
     } else if (line.front() != '#') {
-      add_line(text, line, line_number);
+      add_line(text, keys, line, line_number);
     }
   }
   if (line_number == 0) throw InputError(fmt::format("{}: the file is empty, expected an NRRD header", path));

@@ -277,6 +277,13 @@ TEST(NrrdHeader, AHeaderWithoutAnEndIsNotReadForever) {
   EXPECT_THAT(refusal(many + "\n"), HasSubstr("more than 1048576 bytes"));
 }
 
+TEST(NrrdHeader, AHeaderFullOfKeysIsReadInNoTime) {
+  // A look at every key for every key would take minutes.
+  std::string keys;
+  while (keys.size() < 1'000'000) keys += std::to_string(keys.size()) + ":=\n";
+  EXPECT_GT(parse(cartesian(keys)).notes.size(), 100'000u);
+}
+
 TEST(NrrdHeader, WhatIsNotPrintableIsShownEscapedInMessages) {
   const std::string line("ty\0pe\x1b[2J\xff", 10);
   EXPECT_THAT(refusal("NRRD0004\n" + line + "\n\n"), HasSubstr("'ty\\x00pe\\x1b[2J\\xff'"));
