@@ -152,7 +152,7 @@ TEST(Bounds, AreAtMostFivePercentWiderThanTheRangeOfTheSpline) {
     const Coefficients<double> exact = in_double(c);
     std::mt19937 random(5);
     double ratio = 0.0;
-    constexpr int kCells = 60, kSteps = 12;
+    constexpr int kCells = 40, kSteps = 10;
     for (int n = 0; n < kCells; ++n) {
       const glm::i64vec3 cell(random() % bounds.cells.x, random() % bounds.cells.y, random() % bounds.cells.z);
       double low = std::numeric_limits<double>::max(), high = -low;
