@@ -33,9 +33,9 @@ glm::dvec3 pixel_direction(const CameraFrame& frame, int width, int height, int 
 struct Orbit {
   double azimuth = 0.0, elevation = 0.0, zoom = 1.0;
 };
-/// Looks at the centre of the volume's domain, world z upwards, from the nearest place at which all eight corners of the
-/// domain lie within 95 % of a W x H image (at zoom 1). At elevation +-90 up is its limit. Any world is good, sheared and
-/// left-handed ones too. Throws InputError naming the flag where a number of `orbit` is out of range.
+/// Looks at the centre of the volume's domain, world z upwards, from the nearest place at which all eight corners of
+/// the domain lie within 95 % of a W x H image (at zoom 1). At elevation +-90 up is its limit. Any world is good,
+/// sheared and left-handed ones too. Throws InputError naming the flag where a number of `orbit` is out of range.
 Camera framing_camera(LatticeKind lattice, const Extents& extents, const World& world, const Orbit& orbit, int width,
                       int height);
 
