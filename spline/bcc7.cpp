@@ -74,7 +74,8 @@ Jet Bcc7::generator(const glm::dvec3& x) const {
     net[n] = bcc7_net(q.x, q.y, q.z);
   }
   const QuarticJet jet = evaluate_quartic(net, tetrahedron.barycentric(x));
-  return {jet.value / kBcc7NetDenominator, tetrahedron.gradient_from_frame(jet.derivatives) / double(kBcc7NetDenominator)};
+  return {jet.value / kBcc7NetDenominator,
+          tetrahedron.gradient_from_frame(jet.derivatives) / double(kBcc7NetDenominator)};
 }
 
 QuarticNet Bcc7::bernstein(const Coefficients<double>& c, const Tetrahedron& tetrahedron) {

@@ -1,4 +1,5 @@
-// What is derived of bcc7: its Bernstein-Bezier net and the polynomial on the reference tetrahedron, and the files made of them.
+// What is derived of bcc7: its Bernstein-Bezier net and the polynomial on the reference tetrahedron, and the files made
+// of them.
 #pragma once
 
 #include <array>
@@ -20,11 +21,12 @@ std::map<QuarterPoint, int> derive_bcc7_net();
 /// The net at any quarter-grid point, by symmetry.
 int net_at(const std::map<QuarterPoint, int>& net, const glm::ivec3& q);
 
-/// The samples whose generators reach the reference tetrahedron 1 >= x >= y >= z >= 0, v0 = (0,0,0) all even, ascending.
+/// The samples whose generators reach the reference tetrahedron 1 >= x >= y >= z >= 0, v0 = (0,0,0) all even,
+/// ascending.
 std::vector<glm::ivec3> bcc7_stencil(const std::map<QuarterPoint, int>& net);
 
-/// 384 times the coefficient of x^a y^b z^c of the spline on the reference tetrahedron, as a form of the stencil's samples; the
-/// monomials that never occur are left out.
+/// 384 times the coefficient of x^a y^b z^c of the spline on the reference tetrahedron, as a form of the stencil's
+/// samples; the monomials that never occur are left out.
 std::map<QuarterPoint, LinearForm> bcc7_monomials(const std::map<QuarterPoint, int>& net,
                                                   const std::vector<glm::ivec3>& stencil);
 

@@ -65,7 +65,8 @@ mpq_class ExactBoxSpline::recurse(Subset subset, const RationalPoint& x,
 
   mpq_class sum = 0;
   if (inverse.size() == 3) {
-    // The indicator of the parallelepiped over its volume; the inverse's determinant is that of the directions, inverted.
+    // The indicator of the parallelepiped over its volume; the inverse's determinant is that of the directions,
+    // inverted.
     const bool inside = [&] {
       for (const RationalPoint& row : inverse)
         if (const mpq_class t = dot(row, x); t < 0 || t >= 1) return false;

@@ -32,7 +32,8 @@ class ExactBoxSpline {
   /// Whether x is outside the bounding box of the support (not centred).
   bool outside_box(Subset subset, const RationalPoint& x) const;
   /// Not centred: the sum over the cube [0,1]^n starts at the origin. Values met on the way are kept in `known`.
-  mpq_class recurse(Subset subset, const RationalPoint& x, std::map<std::pair<Subset, RationalPoint>, mpq_class>& known);
+  mpq_class recurse(Subset subset, const RationalPoint& x,
+                    std::map<std::pair<Subset, RationalPoint>, mpq_class>& known);
   mpq_class uncentred(Subset subset, const RationalPoint& x);
   RationalPoint shifted_to_origin(const RationalPoint& x) const;
 

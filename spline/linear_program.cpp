@@ -70,7 +70,8 @@ LinearProgram share_once(int inputs, std::vector<LinearForm> forms, Random rando
   }
 }
 
-/// A form as its greatest common divisor, negative where no coefficient is positive, times the nodes of each absolute coefficient.
+/// A form as its greatest common divisor, negative where no coefficient is positive, times the nodes of each absolute
+/// coefficient.
 struct Grouped {
   int content = 0;
   std::map<int, std::vector<std::pair<int, int>>> groups;  // |coefficient| -> (node, sign)

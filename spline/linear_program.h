@@ -15,7 +15,8 @@ struct SharedSum {
   int left, right, left_factor, right_factor;
 };
 
-/// Nodes 0 .. inputs-1 are the inputs; node inputs + n is sums[n], of earlier nodes; then the outputs, each a form of nodes.
+/// Nodes 0 .. inputs-1 are the inputs; node inputs + n is sums[n], of earlier nodes; then the outputs, each a form of
+/// nodes.
 struct LinearProgram {
   int inputs = 0;
   std::vector<SharedSum> sums;
@@ -26,8 +27,8 @@ struct LinearProgram {
 };
 
 /// A program for `forms`: again and again the pair of nodes that stands in the most forms in the same proportion
-/// becomes a node of its own. Ties are broken at random, `restarts` times over; the cheapest program is returned. The same
-/// arguments give the same program everywhere.
+/// becomes a node of its own. Ties are broken at random, `restarts` times over; the cheapest program is returned. The
+/// same arguments give the same program everywhere.
 LinearProgram share_sums(int inputs, const std::vector<LinearForm>& forms, int restarts);
 
 /// Additions, subtractions and multiplications of a form times numerator/denominator.

@@ -78,7 +78,8 @@ class LineRestriction {
 
  private:
   /// (start + t step) * p + q.
-  std::vector<std::string> multiply_add(const std::vector<std::string>& p, int axis, const std::vector<std::string>& q) {
+  std::vector<std::string> multiply_add(const std::vector<std::string>& p, int axis,
+                                        const std::vector<std::string>& q) {
     std::vector<std::string> product;
     for (std::size_t n = 0; n <= p.size(); ++n) {
       std::string text = n < p.size() ? p[n] + " * " + start_[axis] : "";
@@ -114,7 +115,8 @@ Polynomial derivative(const Polynomial& p, int axis) {
   return slope;
 }
 
-Expression horner_text(const Polynomial& p, const std::array<std::string, 3>& variables, const std::array<int, 3>& order) {
+Expression horner_text(const Polynomial& p, const std::array<std::string, 3>& variables,
+                       const std::array<int, 3>& order) {
   return horner(p, variables, order, 0);
 }
 
@@ -129,7 +131,9 @@ Statements restriction_text(const Polynomial& p, const std::array<std::string, 3
   std::string d2 = line.define("(1.0 / 6.0) * " + a[2], 1);
   std::string d3 = line.define("0.25 * " + a[3], 1);
   const std::string& d4 = a[4];
-  const auto sum = [&](const std::string& left, const std::string& right) { return line.define(left + " + " + right, 1); };
+  const auto sum = [&](const std::string& left, const std::string& right) {
+    return line.define(left + " + " + right, 1);
+  };
   const std::string b1 = sum(a[0], d1);
   d1 = sum(d1, d2);
   const std::string b2 = sum(b1, d1);

@@ -27,7 +27,8 @@ struct Expression {
 };
 
 /// Nested Horner form; variable order[0] is the outermost.
-Expression horner_text(const Polynomial& p, const std::array<std::string, 3>& variables, const std::array<int, 3>& order);
+Expression horner_text(const Polynomial& p, const std::array<std::string, 3>& variables,
+                       const std::array<int, 3>& order);
 
 /// Statements and how many additions and multiplications they are.
 struct Statements {
@@ -36,7 +37,8 @@ struct Statements {
 };
 
 /// A block that assigns to b0..b4 the Bernstein coefficients of a polynomial of degree 4 with unit factors along
-/// start + t step, 0 <= t <= 1: Horner's scheme on polynomials in t, then differences. Locals are of `type`, named after `prefix`.
+/// start + t step, 0 <= t <= 1: Horner's scheme on polynomials in t, then differences. Locals are of `type`, named
+/// after `prefix`.
 Statements restriction_text(const Polynomial& p, const std::array<std::string, 3>& start,
                             const std::array<std::string, 3>& step, const std::array<int, 3>& order,
                             const std::string& type, const std::string& prefix);

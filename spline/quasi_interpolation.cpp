@@ -59,8 +59,7 @@ bool convolve_row(const SampleRows<S>& source, const BccMask& mask, int coset, s
     const double cross = (double(below[i]) + double(above[i])) + (double(behind[i]) + double(before[i]));
     const double axial = cross + (own[i] + own[i + 2]);
     const double diagonals = diagonal[i + coset] + diagonal[i + coset + 1];
-    const double value =
-        (mask.centre * own[i + 1] + mask.axial * axial + mask.diagonal * diagonals) / mask.denominator;
+    const double value = (mask.centre * own[i + 1] + mask.axial * axial + mask.diagonal * diagonals) / mask.denominator;
     largest = std::max(largest, value < 0.0 ? -value : value);
     out[i] = T(value);
   }

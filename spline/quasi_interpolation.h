@@ -20,10 +20,10 @@ inline constexpr BccMask kIdentityMask{1, 0, 0, 1};
 /// q7 of bcc7: 19/12 at the centre, -1/24 at the 14 neighbours.
 inline constexpr BccMask kBcc7Mask{38, -1, -1, 24};
 
-/// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double and
-/// rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
-/// Throws InputError where the volume is not BCC, its samples are not as many as its extents say, one is NaN or infinite,
-/// or a result does not fit T.
+/// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double
+/// and rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
+/// Throws InputError where the volume is not BCC, its samples are not as many as its extents say, one is NaN or
+/// infinite, or a result does not fit T.
 template <class T>
 Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
                                  const Progress& progress);

@@ -31,8 +31,8 @@ struct Tetrahedron {
 /// every point of the closed domain has one. A point on a face between cells goes to the upper one.
 glm::ivec3 cell_of(const glm::dvec3& u, const glm::i64vec3& domain_max);
 
-/// The tetrahedron of `cell` (its lower corner) that holds u; the nearest by order of coordinates where u is outside the
-/// cell. A point on a face between tetrahedra goes to the one that walks the lower axis first.
+/// The tetrahedron of `cell` (its lower corner) that holds u; the nearest by order of coordinates where u is outside
+/// the cell. A point on a face between tetrahedra goes to the one that walks the lower axis first.
 Tetrahedron locate(const glm::ivec3& cell, const glm::dvec3& u);
 
 // The bodies are here: they are a few instructions each, inside every evaluation.

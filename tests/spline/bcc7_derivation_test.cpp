@@ -48,7 +48,8 @@ TEST(ExactBoxSpline, IsTheTrilinearHatForTheThreeAxesTwice) {
 TEST(Bcc7, AgreesWithTheExactRecursionOnAVolume) {
   const Bcc7 spline;
   const Extents extents(3);
-  const auto c = spline.coefficients(random_volume(LatticeKind::bcc, extents, 1), Spline::Prefilter::quasi_interpolation);
+  const auto c =
+      spline.coefficients(random_volume(LatticeKind::bcc, extents, 1), Spline::Prefilter::quasi_interpolation);
   ExactBoxSpline exact(bcc7_directions());
   Random random(2);
   for (int n = 0; n < 6; ++n) {
@@ -56,7 +57,8 @@ TEST(Bcc7, AgreesWithTheExactRecursionOnAVolume) {
     mpq_class value;
     RationalPoint gradient;
     for_lattice_points(LatticeKind::bcc, u, 3.0, [&](int coset, const glm::i64vec3& index, const glm::dvec3& j) {
-      const mpq_class coefficient(c.data[c.number(coset, glm::clamp(index, glm::i64vec3(0), extents - std::int64_t(1)))]);
+      const mpq_class coefficient(
+          c.data[c.number(coset, glm::clamp(index, glm::i64vec3(0), extents - std::int64_t(1)))]);
       const RationalPoint x = rational(u - j);  // exact: u has 32 bits after the point
       value += 4 * coefficient * exact.value(x);
       const RationalPoint slope = exact.gradient(x);

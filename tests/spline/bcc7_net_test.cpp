@@ -112,12 +112,14 @@ std::string plane_of(const Face& face) {
 
 TEST(Bcc7Net, JoinsC3AcrossTheFacesOfCellsAndC2AcrossTheOthersAndNoSmoother) {
   // 5 of the 7 directions leave a plane x = 0, 4 leave a plane x = y: so many less 2 derivatives agree.
-  const std::map<std::string, int> smoothness = {{"100", 3}, {"010", 3}, {"001", 3}, {"110", 2}, {"101", 2}, {"011", 2}};
+  const std::map<std::string, int> smoothness = {{"100", 3}, {"010", 3}, {"001", 3},
+                                                 {"110", 2}, {"101", 2}, {"011", 2}};
   std::map<std::string, int> faces, broken;
   for (const Face& face : inner_faces(tetrahedra(4))) {
     const std::string plane = plane_of(face);
     ASSERT_TRUE(smoothness.count(plane)) << plane;
-    for (int order = 0; order <= smoothness.at(plane); ++order) ASSERT_TRUE(joins(face, order)) << plane << " order " << order;
+    for (int order = 0; order <= smoothness.at(plane); ++order)
+      ASSERT_TRUE(joins(face, order)) << plane << " order " << order;
     ++faces[plane];
     broken[plane] += !joins(face, smoothness.at(plane) + 1);
   }

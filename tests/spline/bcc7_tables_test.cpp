@@ -68,7 +68,8 @@ Tables largest_differences() {
     spline.restrict_to_segment(c, cell, a, b, bernstein);
     largest.jet.value = std::max(largest.jet.value, std::abs(got.jet.value - jet.value));
     largest.jet.gradient = glm::max(largest.jet.gradient, glm::abs(got.jet.gradient - jet.gradient));
-    for (int m = 0; m < 5; ++m) largest.bernstein[m] = std::max(largest.bernstein[m], std::abs(got.bernstein[m] - bernstein[m]));
+    for (int m = 0; m < 5; ++m)
+      largest.bernstein[m] = std::max(largest.bernstein[m], std::abs(got.bernstein[m] - bernstein[m]));
   }
   return largest;
 }

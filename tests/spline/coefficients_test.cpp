@@ -81,7 +81,8 @@ TEST(Coefficients, AreTheSamplesWithoutPrefilterAndTheirRoundingInFloats) {
 
 TEST(Coefficients, OfEverySampleTypeAgree) {
   const Bcc7 spline;
-  Volume volume = volume_of(LatticeKind::bcc, {4, 3, 2}, [](const glm::dvec3& u) { return std::fmod(u.x * 37 + u.y * 11 + u.z * 5, 251.0); });
+  Volume volume = volume_of(LatticeKind::bcc, {4, 3, 2},
+                            [](const glm::dvec3& u) { return std::fmod(u.x * 37 + u.y * 11 + u.z * 5, 251.0); });
   const auto expected = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation).data;
   const auto floats = std::get<std::vector<float>>(volume.samples);
   volume.samples = std::vector<std::uint8_t>(floats.begin(), floats.end());
@@ -94,7 +95,8 @@ TEST(Coefficients, OfEverySampleTypeAgree) {
 
 TEST(Coefficients, OfAConstantAreThatConstant) {
   const Bcc7 spline;
-  const auto c = spline.coefficients(volume_of(LatticeKind::bcc, {3, 3, 3}, [](const glm::dvec3&) { return 130.0; }), Spline::Prefilter::quasi_interpolation);
+  const auto c = spline.coefficients(volume_of(LatticeKind::bcc, {3, 3, 3}, [](const glm::dvec3&) { return 130.0; }),
+                                     Spline::Prefilter::quasi_interpolation);
   EXPECT_THAT(c.data, testing::Each(130.0));
 }
 

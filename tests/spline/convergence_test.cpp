@@ -9,13 +9,16 @@ namespace quincunx {
 namespace {
 
 /// A smooth function of the unit cube.
-double smooth(const glm::dvec3& x) { return std::sin(5.0 * x.x + 2.0 * x.y) * std::cos(4.0 * x.y - 3.0 * x.z + 0.3) + x.z * x.x; }
+double smooth(const glm::dvec3& x) {
+  return std::sin(5.0 * x.x + 2.0 * x.y) * std::cos(4.0 * x.y - 3.0 * x.z + 0.3) + x.z * x.x;
+}
 
 /// RMS error in the middle of the unit cube at spacing 1/cells.
 double rms_error(const Spline& spline, int cells, Spline::Prefilter prefilter) {
   const double h = 1.0 / cells;
   const Extents extents(cells / lattice_step(spline.lattice()) + 1);
-  const auto c = spline.coefficients(volume_of(spline.lattice(), extents, [&](const glm::dvec3& u) { return smooth(h * u); }), prefilter);
+  const auto c = spline.coefficients(
+      volume_of(spline.lattice(), extents, [&](const glm::dvec3& u) { return smooth(h * u); }), prefilter);
   Random random(1);
   double sum = 0.0;
   const int points = 4000;

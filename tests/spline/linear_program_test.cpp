@@ -26,7 +26,8 @@ LinearForm expand(const LinearProgram& program, const LinearForm& form) {
 }
 
 TEST(LinearProgram, ComputesTheFormsItWasMadeOfWithSharedSumsInAnyProportion) {
-  const std::vector<LinearForm> forms = {{{0, 1}, {1, 2}, {2, 1}}, {{0, -2}, {1, -4}, {3, 1}}, {{0, 3}, {1, 6}, {2, -1}, {3, 5}}};
+  const std::vector<LinearForm> forms = {
+      {{0, 1}, {1, 2}, {2, 1}}, {{0, -2}, {1, -4}, {3, 1}}, {{0, 3}, {1, 6}, {2, -1}, {3, 5}}};
   const LinearProgram program = share_sums(4, forms, 5);
   EXPECT_EQ(program.sums.size(), 1u);  // node 0 + 2 node 1
   ASSERT_EQ(program.outputs.size(), forms.size());

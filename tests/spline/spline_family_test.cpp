@@ -86,7 +86,8 @@ TEST_P(SplineFamily, IsInvariantUnderThe48SymmetriesOfTheCube) {
     do {
       for (int signs = 0; signs < 8; ++signs) {
         const auto image = [&](const glm::dvec3& v) {
-          return glm::dvec3(v[axis.x] * (signs & 1 ? -1 : 1), v[axis.y] * (signs & 2 ? -1 : 1), v[axis.z] * (signs & 4 ? -1 : 1));
+          return glm::dvec3(v[axis.x] * (signs & 1 ? -1 : 1), v[axis.y] * (signs & 2 ? -1 : 1),
+                            v[axis.z] * (signs & 4 ? -1 : 1));
         };
         const Jet other = spline->generator(image(x));
         EXPECT_NEAR(other.value, jet.value, 1e-15);
@@ -163,8 +164,8 @@ TEST_P(SplineFamily, EvaluatesTheSumOfItsShiftedGenerators) {
   }
 }
 
-/// Largest error of the spline of the samples of x^a y^b z^c over all a + b + c = degree, in the middle of a volume; the
-/// polynomials are at most 1 there.
+/// Largest error of the spline of the samples of x^a y^b z^c over all a + b + c = degree, in the middle of a volume;
+/// the polynomials are at most 1 there.
 double monomial_error(const Spline& spline, int degree, Spline::Prefilter prefilter) {
   const Extents extents(7);  // no border reaches the middle
   const glm::dvec3 middle = 0.5 * glm::dvec3(domain_max(spline.lattice(), extents));
@@ -172,7 +173,9 @@ double monomial_error(const Spline& spline, int degree, Spline::Prefilter prefil
   for (int a = 0; a <= degree; ++a)
     for (int b = 0; a + b <= degree; ++b) {
       // Integers, so that float samples are exact.
-      const auto f = [&](const glm::dvec3& u) { return std::pow(u.x - 6, a) * std::pow(u.y - 6, b) * std::pow(u.z - 6, degree - a - b); };
+      const auto f = [&](const glm::dvec3& u) {
+        return std::pow(u.x - 6, a) * std::pow(u.y - 6, b) * std::pow(u.z - 6, degree - a - b);
+      };
       const auto c = spline.coefficients(volume_of(spline.lattice(), extents, f), prefilter);
       Random random(7);
       for (int n = 0; n < 20; ++n) {
@@ -216,7 +219,8 @@ double highest_difference(const Spline& spline, const Coefficients<double>& c, c
 
 TEST_P(SplineFamily, IsOnePolynomialBetweenSplitsWhichTheSegmentHolds) {
   const Extents extents(3);
-  const auto c = spline->coefficients(random_volume(spline->lattice(), extents, 8), Spline::Prefilter::quasi_interpolation);
+  const auto c =
+      spline->coefficients(random_volume(spline->lattice(), extents, 8), Spline::Prefilter::quasi_interpolation);
   const glm::dvec3 cells(domain_max(spline->lattice(), extents));
   Random random(9);
   double across = 0.0;
@@ -234,7 +238,8 @@ TEST_P(SplineFamily, IsOnePolynomialBetweenSplitsWhichTheSegmentHolds) {
       std::vector<double> bernstein(std::size_t(spline->degree()) + 1);
       spline->restrict_to_segment(c, cell, o + t[i - 1] * d, o + t[i] * d, bernstein);
       for (int m = 0; m <= 6; ++m)
-        EXPECT_NEAR(bernstein_value(bernstein, m / 6.0), spline->evaluate(c, o + (t[i - 1] + (t[i] - t[i - 1]) * m / 6.0) * d).value, 1e-14);
+        EXPECT_NEAR(bernstein_value(bernstein, m / 6.0),
+                    spline->evaluate(c, o + (t[i - 1] + (t[i] - t[i - 1]) * m / 6.0) * d).value, 1e-14);
     }
     if (t.size() > 2) across = std::max(across, highest_difference(*spline, c, o, d, t.front(), t.back()));
   }

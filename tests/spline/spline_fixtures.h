@@ -35,7 +35,8 @@ Volume volume_of(LatticeKind lattice, const Extents& extents, const F& f) {
   for (int c = 0; c < coset_count(lattice); ++c)
     for (std::int64_t k = 0; k < extents.z; ++k)
       for (std::int64_t j = 0; j < extents.y; ++j)
-        for (std::int64_t i = 0; i < extents.x; ++i) samples.push_back(float(f(step * glm::dvec3(i, j, k) + double(c))));
+        for (std::int64_t i = 0; i < extents.x; ++i)
+          samples.push_back(float(f(step * glm::dvec3(i, j, k) + double(c))));
   volume.samples = std::move(samples);
   return volume;
 }

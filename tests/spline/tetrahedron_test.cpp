@@ -21,7 +21,8 @@ TEST(Tetrahedron, WalksFromTheEvenCornerToTheOddOneAlongTheEdgesOfTheCell) {
     EXPECT_EQ(t.vertex(0) & 1, glm::ivec3(0));
     EXPECT_EQ(t.vertex(3) & 1, glm::ivec3(1));
     for (int i = 0; i < 4; ++i) {
-      EXPECT_TRUE(glm::all(glm::greaterThanEqual(t.vertex(i), cell)) && glm::all(glm::lessThanEqual(t.vertex(i), cell + 1)));
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(t.vertex(i), cell)) &&
+                  glm::all(glm::lessThanEqual(t.vertex(i), cell + 1)));
       if (i == 0) continue;
       const glm::ivec3 step = glm::abs(t.vertex(i) - t.vertex(i - 1));
       EXPECT_EQ(step.x + step.y + step.z, 1);
