@@ -12,7 +12,8 @@
 namespace quincunx::gpu {
 namespace {
 
-void check_limit(const Device& device, std::uint64_t found, std::uint64_t limit, const char* what, const std::string& label) {
+void check_limit(const Device& device, std::uint64_t found, std::uint64_t limit, const char* what,
+                 const std::string& label) {
   if (found <= limit) return;
   throw DeviceError(fmt::format("{} needs {} {}; {} allows {}", label, found, what, device.info.name, limit));
 }
@@ -25,7 +26,8 @@ void check_texels(const Device& device, std::uint64_t bytes, VkFormat format, co
   VkFormatProperties properties{};
   vkGetPhysicalDeviceFormatProperties(device.physical, format, &properties);
   if (!(properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT)) {
-    throw DeviceError(fmt::format("{}: {} has no texel buffers of {}", label, device.info.name, texel_format_name(format)));
+    throw DeviceError(
+        fmt::format("{}: {} has no texel buffers of {}", label, device.info.name, texel_format_name(format)));
   }
   check_limit(device, bytes / texel, device.limits.maxTexelBufferElements, "texels", label);
 }
@@ -77,12 +79,14 @@ void fill_with_zeros(Device& device, const Allocation& allocation) {
     return;
   }
   const std::lock_guard lock(device.mutex);
-  run_commands(device, [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, allocation.buffer, 0, VK_WHOLE_SIZE, 0); });
+  run_commands(device,
+               [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, allocation.buffer, 0, VK_WHOLE_SIZE, 0); });
 }
 
 }  // namespace
 
-Buffer create_buffer(Device& device, std::uint64_t bytes, BufferUse use, const std::string& label, VkFormat texel_format) {
+Buffer create_buffer(Device& device, std::uint64_t bytes, BufferUse use, const std::string& label,
+                     VkFormat texel_format) {
   if (bytes == 0) bytes = 4;
   check_use(device, bytes, use, texel_format, label);
 

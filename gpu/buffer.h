@@ -15,7 +15,8 @@ namespace quincunx::gpu {
 
 /// storage: buffer blocks, at most max_storage_buffer_range bytes.
 /// uniform: uniform blocks.
-/// texel:   uniform texel buffer (samplerBuffer), read-only for kernels, at most max_texel_buffer_elements; also storage.
+/// texel:   uniform texel buffer (samplerBuffer), read-only for kernels, at most
+///          max_texel_buffer_elements; also storage.
 /// address: reached by Buffer::address alone (GL_EXT_buffer_reference), as large as memory allows.
 enum class BufferUse { storage, uniform, texel, address };
 
@@ -25,7 +26,7 @@ struct Buffer {
   VkBuffer handle = VK_NULL_HANDLE;
   VkBufferView view = VK_NULL_HANDLE;  ///< texel buffers only
   std::uint64_t bytes = 0;
-  VkDeviceAddress address = 0;         ///< where the device has features().buffer_address, else 0
+  VkDeviceAddress address = 0;  ///< where the device has features().buffer_address, else 0
 };
 
 /// Throws DeviceError naming `label` and the bytes where memory is short or a limit (see BufferUse) is passed, where

@@ -23,6 +23,8 @@ struct BufferOwner {
   }
 };
 
-inline const BufferOwner& owner_of(const Buffer& buffer) { return *static_cast<const BufferOwner*>(buffer.owner.get()); }
+inline const BufferOwner& owner_of(const Buffer& buffer) {
+  return *static_cast<const BufferOwner*>(buffer.owner.get());
+}
 
 }  // namespace quincunx::gpu

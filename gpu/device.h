@@ -14,9 +14,10 @@ namespace quincunx::gpu {
 enum class Transfer { automatic, staged };
 
 struct DeviceConfig {
-  std::string select;        ///< as choose_device takes it
-  bool validation = false;   ///< turn the validation layer on; its messages are collected (validation_messages)
-  std::string cache_folder;  ///< SPIR-V by content and the pipeline cache; "": $XDG_CACHE_HOME or ~/.cache, /quincunx; unwritable: no cache
+  std::string select;       ///< as choose_device takes it
+  bool validation = false;  ///< turn the validation layer on; its messages are collected (validation_messages)
+  /// Of SPIR-V and the pipeline cache; "": quincunx in $XDG_CACHE_HOME or ~/.cache. Unwritable: no cache.
+  std::string cache_folder;
   Transfer transfer = Transfer::automatic;  ///< staged: as on a discrete GPU, whatever the memory
 };
 

@@ -22,7 +22,8 @@ std::size_t rank(const DeviceInfo& device) {
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -30,8 +31,8 @@ std::string list_text(std::span<const DeviceInfo> devices) {
   if (devices.empty()) return "there is no Vulkan device; Debian's mesa-vulkan-drivers brings one that runs on the CPU";
   std::string text = "the devices are";
   for (const DeviceInfo& device : devices) {
-    text += fmt::format("{} {}: {} ({}{})", device.index == devices[0].index ? "" : ",", device.index, device.name, device.type,
-                        device.usable ? "" : ", not usable");
+    text += fmt::format("{} {}: {} ({}{})", device.index == devices[0].index ? "" : ",", device.index, device.name,
+                        device.type, device.usable ? "" : ", not usable");
   }
   return text;
 }
@@ -52,8 +53,8 @@ std::optional<std::uint32_t> parse_index(const std::string& select) {
 
 const DeviceInfo& require_usable(const DeviceInfo& device, std::span<const DeviceInfo> devices) {
   if (device.usable) return device;
-  throw DeviceError(fmt::format("device {} ({}) lacks Vulkan 1.2, a compute queue or timestamps; {}", device.index, device.name,
-                                list_text(devices)));
+  throw DeviceError(fmt::format("device {} ({}) lacks Vulkan 1.2, a compute queue or timestamps; {}", device.index,
+                                device.name, list_text(devices)));
 }
 
 }  // namespace
@@ -72,7 +73,8 @@ std::uint32_t choose_device(std::span<const DeviceInfo> devices, const std::stri
   if (is_index(select)) {
     const std::optional<std::uint32_t> index = parse_index(select);
     for (std::size_t i = 0; i < devices.size(); ++i) {
-      if (index && devices[i].index == *index) return require_usable(devices[i], devices), static_cast<std::uint32_t>(i);
+      if (index && devices[i].index == *index)
+        return require_usable(devices[i], devices), static_cast<std::uint32_t>(i);
     }
     throw DeviceError(fmt::format("there is no device of index {}; {}", select, list_text(devices)));
   }

@@ -1,6 +1,7 @@
 // Small files by name in the cache folder, each with its checksum. Private to gpu/.
 //
-// A file, little-endian as the machine:  0 "QXCACHE1" | 8 bytes of content (uint64) | 16 hash, 128 bits | 32 the content
+// A file, in the machine's byte order, by offset:
+//   0 "QXCACHE1"   8 bytes of content (uint64)   16 its hash (2 x uint64)   32 the content
 //
 // A cache never fails: what cannot be read is missing, what cannot be written is not kept.
 #pragma once

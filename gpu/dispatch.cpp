@@ -55,7 +55,8 @@ void check_buffer(const Device& device, const Binding& binding, const Buffer& bu
     if (use != BufferUse::texel) fail("is a texel buffer and was given another kind");
   } else if (binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) {
     if (use != BufferUse::uniform) fail("is a uniform block and was given another kind of buffer");
-    if (buffer.bytes < binding.struct_bytes) fail(fmt::format("takes {} bytes; its buffer has {}", binding.struct_bytes, buffer.bytes));
+    if (buffer.bytes < binding.struct_bytes)
+      fail(fmt::format("takes {} bytes; its buffer has {}", binding.struct_bytes, buffer.bytes));
   } else {
     if (use == BufferUse::uniform) fail("is a storage block and was given a uniform buffer");
     const std::uint64_t limit = device.limits.maxStorageBufferRange;
@@ -92,7 +93,8 @@ void check_call(const Device& device, const Pipeline& pipeline, std::span<const 
   for (unsigned axis = 0; axis < 3; ++axis) {
     const std::uint32_t limit = device.limits.maxComputeWorkGroupCount[axis];
     if (groups[axis] > limit) {
-      throw DeviceError(fmt::format("{} work groups along axis {}; {} allows {}", groups[axis], axis, device.info.name, limit));
+      throw DeviceError(
+          fmt::format("{} work groups along axis {}; {} allows {}", groups[axis], axis, device.info.name, limit));
     }
   }
 }
@@ -105,7 +107,8 @@ void record(const Device& device, const Pipeline& pipeline, std::span<const std:
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &pipeline.set, 0, nullptr);
   }
   if (!push.empty()) {
-    vkCmdPushConstants(commands, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
+    vkCmdPushConstants(commands, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       static_cast<std::uint32_t>(push.size()), push.data());
   }
   vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, device.timestamps, 0);
   vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
@@ -114,8 +117,8 @@ void record(const Device& device, const Pipeline& pipeline, std::span<const std:
 
 double elapsed_ms(const Device& device) {
   std::array<std::uint64_t, 2> ticks{};
-  QUINCUNX_VK(vkGetQueryPoolResults(device.handle, device.timestamps, 0, 2, sizeof(ticks), ticks.data(), sizeof(ticks[0]),
-                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  QUINCUNX_VK(vkGetQueryPoolResults(device.handle, device.timestamps, 0, 2, sizeof(ticks), ticks.data(),
+                                    sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
   const std::uint32_t bits = device.family.timestamp_bits;
   const std::uint64_t mask = bits >= 64 ? UINT64_MAX : (std::uint64_t{1} << bits) - 1;
   // The difference modulo 2^bits is right also where the counter has wrapped around in between.

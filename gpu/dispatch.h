@@ -13,7 +13,8 @@
 
 namespace quincunx::gpu {
 
-/// Resources by the kernel's names; one missing, one too many or one of the wrong use is a std::runtime_error naming it.
+/// Resources by the kernel's names; one missing, one too many or one of the wrong use is a
+/// std::runtime_error naming it.
 using Resources = std::vector<std::pair<std::string, Buffer>>;
 
 /// Runs the kernel over groups, waits for its end (all barriers inside), and returns its time in milliseconds by

@@ -22,7 +22,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBi
 VkDebugUtilsMessengerCreateInfoEXT messenger_info(Instance& instance) {
   VkDebugUtilsMessengerCreateInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   // Not GENERAL: there the loader talks of other drivers on the machine.
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = collect_message;
@@ -35,10 +36,12 @@ void require_validation_layer() {
   QUINCUNX_VK(vkEnumerateInstanceLayerProperties(&count, nullptr));
   std::vector<VkLayerProperties> layers(count);
   QUINCUNX_VK(vkEnumerateInstanceLayerProperties(&count, layers.data()));
-  const bool found = std::any_of(layers.begin(), layers.end(),
-                                 [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, kLayer) == 0; });
-  if (!found) throw DeviceError(std::string("validation was asked for, but ") + kLayer +
-                                " is not installed (Debian package vulkan-validationlayers)");
+  const bool found = std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+    return std::strcmp(layer.layerName, kLayer) == 0;
+  });
+  if (!found)
+    throw DeviceError(std::string("validation was asked for, but ") + kLayer +
+                      " is not installed (Debian package vulkan-validationlayers)");
 }
 
 void create_messenger(Instance& instance) {

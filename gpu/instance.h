@@ -29,7 +29,7 @@ struct Instance {
   ~Instance();
 };
 
-/// Empty where no Vulkan driver is installed. Throws DeviceError where validation is asked for and its layer is missing.
+/// Empty where no Vulkan driver is installed. Throws DeviceError where validation is asked for and not there.
 std::unique_ptr<Instance> create_instance(Validation validation);
 
 std::vector<VkPhysicalDevice> physical_devices(const Instance& instance);

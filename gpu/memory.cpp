@@ -36,11 +36,13 @@ std::uint32_t choose_type(const Device& device, std::uint32_t allowed, Placement
   throw std::runtime_error("no memory type suits a buffer");
 }
 
-[[noreturn]] void throw_short(const Device& device, std::uint64_t bytes, const std::string& label, const std::string& why) {
+[[noreturn]] void throw_short(const Device& device, std::uint64_t bytes, const std::string& label,
+                              const std::string& why) {
   throw DeviceError(fmt::format("cannot hold {} bytes for {} on {}: {}", bytes, label, device.info.name, why));
 }
 
-void check_memory(const Device& device, VkResult result, const char* call, std::uint64_t bytes, const std::string& label) {
+void check_memory(const Device& device, VkResult result, const char* call, std::uint64_t bytes,
+                  const std::string& label) {
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
     throw_short(device, bytes, label, fmt::format("memory is short ({} bytes in all)", device.info.memory_bytes));
   }
@@ -53,15 +55,18 @@ void create_handle(Device& device, Allocation& allocation, VkBufferUsageFlags us
   info.size = allocation.bytes;
   info.usage = usage;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-  check_memory(device, vkCreateBuffer(device.handle, &info, nullptr, &allocation.buffer), "vkCreateBuffer", allocation.bytes, label);
+  check_memory(device, vkCreateBuffer(device.handle, &info, nullptr, &allocation.buffer), "vkCreateBuffer",
+               allocation.bytes, label);
 }
 
-void bind_memory(Device& device, Allocation& allocation, VkBufferUsageFlags usage, Placement placement, const std::string& label) {
+void bind_memory(Device& device, Allocation& allocation, VkBufferUsageFlags usage, Placement placement,
+                 const std::string& label) {
   VkMemoryRequirements needs{};
   vkGetBufferMemoryRequirements(device.handle, allocation.buffer, &needs);
   const std::uint32_t type = choose_type(device, needs.memoryTypeBits, placement);
   const std::uint64_t heap = device.memory.memoryHeaps[device.memory.memoryTypes[type].heapIndex].size;
-  if (needs.size > heap) throw_short(device, allocation.bytes, label, fmt::format("its memory has {} bytes in all", heap));
+  if (needs.size > heap)
+    throw_short(device, allocation.bytes, label, fmt::format("its memory has {} bytes in all", heap));
 
   VkMemoryAllocateFlagsInfo flags{};
   flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
@@ -71,7 +76,8 @@ void bind_memory(Device& device, Allocation& allocation, VkBufferUsageFlags usag
   info.pNext = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) ? &flags : nullptr;
   info.allocationSize = needs.size;
   info.memoryTypeIndex = type;
-  check_memory(device, vkAllocateMemory(device.handle, &info, nullptr, &allocation.memory), "vkAllocateMemory", allocation.bytes, label);
+  check_memory(device, vkAllocateMemory(device.handle, &info, nullptr, &allocation.memory), "vkAllocateMemory",
+               allocation.bytes, label);
   QUINCUNX_VK(vkBindBufferMemory(device.handle, allocation.buffer, allocation.memory, 0));
   const VkMemoryPropertyFlags has = device.memory.memoryTypes[type].propertyFlags;
   const bool wanted = placement == Placement::staging || device.features.unified_memory;
@@ -89,7 +95,8 @@ bool is_unified(VkPhysicalDevice physical) {
          properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
 }
 
-Allocation allocate(Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, Placement placement, const std::string& label) {
+Allocation allocate(Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, Placement placement,
+                    const std::string& label) {
   if (bytes > device.max_allocation) {
     throw_short(device, bytes, label, fmt::format("one buffer holds at most {} bytes", device.max_allocation));
   }

@@ -25,7 +25,8 @@ bool is_unified(VkPhysicalDevice physical);
 
 /// Throws DeviceError naming `label`, the bytes and the device where a limit is passed or memory is short.
 /// Contents are undefined.
-Allocation allocate(Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, Placement placement, const std::string& label);
+Allocation allocate(Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, Placement placement,
+                    const std::string& label);
 void release(Device& device, Allocation& allocation);
 
 }  // namespace quincunx::gpu

@@ -89,12 +89,13 @@ void check_sizes(const Device& device, const Reflection& reflection) {
   const bool fits = size[0] <= limit[0] && size[1] <= limit[1] && size[2] <= limit[2] && lanes > 0 &&
                     lanes <= device.limits.maxComputeWorkGroupInvocations;
   if (!fits) {
-    throw DeviceError(fmt::format("a work group of {} x {} x {} is not 1 to {} lanes, as {} allows", size[0], size[1], size[2],
-                                  device.limits.maxComputeWorkGroupInvocations, device.info.name));
+    throw DeviceError(fmt::format("a work group of {} x {} x {} is not 1 to {} lanes, as {} allows", size[0], size[1],
+                                  size[2], device.limits.maxComputeWorkGroupInvocations, device.info.name));
   }
   if (reflection.push_constant_bytes > device.limits.maxPushConstantsSize) {
-    throw DeviceError(fmt::format("the kernel's push constants take {} bytes; {} allows {}", reflection.push_constant_bytes,
-                                  device.info.name, device.limits.maxPushConstantsSize));
+    throw DeviceError(fmt::format("the kernel's push constants take {} bytes; {} allows {}",
+                                  reflection.push_constant_bytes, device.info.name,
+                                  device.limits.maxPushConstantsSize));
   }
 }
 

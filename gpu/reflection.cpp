@@ -21,7 +21,8 @@ struct Module {
 
   void check(spvc_result result) const {
     if (result == SPVC_SUCCESS) return;
-    throw std::runtime_error(std::string("reflection of a kernel: ") + spvc_context_get_last_error_string(context.get()));
+    throw std::runtime_error(std::string("reflection of a kernel: ") +
+                             spvc_context_get_last_error_string(context.get()));
   }
 };
 
@@ -32,7 +33,8 @@ Module parse(std::span<const std::uint32_t> spirv) {
   module.context.reset(context);
   spvc_parsed_ir ir = nullptr;
   module.check(spvc_context_parse_spirv(context, spirv.data(), spirv.size(), &ir));
-  module.check(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &module.compiler));
+  module.check(
+      spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &module.compiler));
   if (spvc_compiler_get_execution_model(module.compiler) != SpvExecutionModelGLCompute) {
     throw std::runtime_error("reflection of a kernel: not a compute kernel");
   }
@@ -57,8 +59,8 @@ std::string resource_name(const Module& module, const spvc_reflected_resource& r
 spvc_type type_of(const Module& module, spvc_type_id id) { return spvc_compiler_get_type_handle(module.compiler, id); }
 
 // Members of `type`, those of nested structs instead of the struct; of arrays of structs the first element.
-void add_members(const Module& module, spvc_type type, const std::string& block, const std::string& prefix, std::uint32_t base,
-                 std::vector<BlockMember>& members) {
+void add_members(const Module& module, spvc_type type, const std::string& block, const std::string& prefix,
+                 std::uint32_t base, std::vector<BlockMember>& members) {
   const spvc_type_id id = spvc_type_get_base_type_id(type);
   const spvc_type plain = type_of(module, id);
   for (unsigned i = 0; i < spvc_type_get_num_member_types(plain); ++i) {
@@ -86,15 +88,19 @@ bool is_buffer_image(const Module& module, const spvc_reflected_resource& resour
   return spvc_type_get_image_dimension(type_of(module, resource.base_type_id)) == SpvDimBuffer;
 }
 
-void add_binding(const Module& module, const spvc_reflected_resource& resource, VkDescriptorType type, Reflection& reflection) {
+void add_binding(const Module& module, const spvc_reflected_resource& resource, VkDescriptorType type,
+                 Reflection& reflection) {
   Binding binding;
   binding.name = resource_name(module, resource);
   binding.binding = spvc_compiler_get_decoration(module.compiler, resource.id, SpvDecorationBinding);
   binding.type = type;
   const unsigned set = spvc_compiler_get_decoration(module.compiler, resource.id, SpvDecorationDescriptorSet);
-  if (set != 0) throw std::runtime_error(fmt::format("kernel resource '{}' is in set {}; only set 0 is offered", binding.name, set));
+  if (set != 0)
+    throw std::runtime_error(
+        fmt::format("kernel resource '{}' is in set {}; only set 0 is offered", binding.name, set));
   if (spvc_type_get_num_array_dimensions(type_of(module, resource.type_id)) > 0) {
-    throw std::runtime_error(fmt::format("kernel resource '{}' is an array of resources, which is not offered", binding.name));
+    throw std::runtime_error(
+        fmt::format("kernel resource '{}' is an array of resources, which is not offered", binding.name));
   }
   if (type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) binding.struct_bytes = declared_bytes(module, resource);
   reflection.bindings.push_back(binding);
@@ -103,18 +109,21 @@ void add_binding(const Module& module, const spvc_reflected_resource& resource, 
 void add_blocks(const Module& module, spvc_resource_type kind, VkDescriptorType type, Reflection& reflection) {
   for (const spvc_reflected_resource& resource : resources_of(module, kind)) {
     add_binding(module, resource, type, reflection);
-    add_members(module, type_of(module, resource.base_type_id), reflection.bindings.back().name, "", 0, reflection.members);
+    add_members(module, type_of(module, resource.base_type_id), reflection.bindings.back().name, "", 0,
+                reflection.members);
   }
 }
 
 void add_texel_buffers(const Module& module, Reflection& reflection) {
-  for (const auto kind : {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_STORAGE_IMAGE,
-                          SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE}) {
+  for (const auto kind :
+       {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_STORAGE_IMAGE,
+        SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE}) {
     const bool read_only = kind == SPVC_RESOURCE_TYPE_SAMPLED_IMAGE || kind == SPVC_RESOURCE_TYPE_SEPARATE_IMAGE;
     for (const spvc_reflected_resource& resource : resources_of(module, kind)) {
       if (!read_only || !is_buffer_image(module, resource)) {
-        throw std::runtime_error(fmt::format("kernel resource '{}' is neither a buffer block, a uniform block nor a samplerBuffer",
-                                             resource_name(module, resource)));
+        throw std::runtime_error(
+            fmt::format("kernel resource '{}' is neither a buffer block, a uniform block nor a samplerBuffer",
+                        resource_name(module, resource)));
       }
       add_binding(module, resource, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, reflection);
     }
@@ -124,7 +133,8 @@ void add_texel_buffers(const Module& module, Reflection& reflection) {
 void add_push_constants(const Module& module, Reflection& reflection) {
   for (const spvc_reflected_resource& resource : resources_of(module, SPVC_RESOURCE_TYPE_PUSH_CONSTANT)) {
     reflection.push_constant_bytes = static_cast<std::uint32_t>(declared_bytes(module, resource));
-    add_members(module, type_of(module, resource.base_type_id), resource_name(module, resource), "", 0, reflection.members);
+    add_members(module, type_of(module, resource.base_type_id), resource_name(module, resource), "", 0,
+                reflection.members);
   }
 }
 
@@ -162,8 +172,8 @@ void sort_bindings(Reflection& reflection) {
   const auto same = std::adjacent_find(bindings.begin(), bindings.end(),
                                        [](const Binding& a, const Binding& b) { return a.binding == b.binding; });
   if (same == bindings.end()) return;
-  throw std::runtime_error(
-      fmt::format("kernel resources '{}' and '{}' have the same binding {}", same->name, (same + 1)->name, same->binding));
+  throw std::runtime_error(fmt::format("kernel resources '{}' and '{}' have the same binding {}", same->name,
+                                       (same + 1)->name, same->binding));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct Reflection {
   std::vector<std::pair<std::string, std::uint32_t>> specialization;  ///< name, constant_id
   std::uint32_t local_size[3] = {1, 1, 1};  ///< of a Pipeline: as specialized; else the default
   std::uint32_t local_size_ids[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};  ///< constant_id of local_size_?_id, if any
-  std::vector<std::uint32_t> capabilities;  ///< SpvCapability
+  std::vector<std::uint32_t> capabilities;                                 ///< SpvCapability
 };
 
 /// Throws std::runtime_error for words that are no SPIR-V compute kernel, or for resources that gpu/ does not offer:

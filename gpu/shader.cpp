@@ -1,9 +1,9 @@
 #include "gpu/shader.h"
 
-#include <glslang/SPIRV/GlslangToSpv.h>
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <cstring>
 #include <memory>

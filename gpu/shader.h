@@ -22,7 +22,7 @@ struct KernelSource {
   std::vector<std::pair<std::string, std::string>> defines;
 };
 
-/// GLSL compiled by glslang to SPIR-V 1.5 for Vulkan 1.2; from the disk cache where the same content was compiled before.
+/// GLSL compiled by glslang to SPIR-V 1.5 for Vulkan 1.2; from the disk cache where the same was compiled before.
 /// `#include "name"` needs no extension line; the name is sought beside the including file, then as it stands. A file
 /// with `#pragma once` is included once. Not optimised, so that functions keep their names (OpName) and a kernel can be
 /// asked what it contains: drivers optimise themselves.

@@ -77,7 +77,8 @@ std::string define_lines(const KernelSource& source) {
 
 std::string content_key(const SourceTexts& texts, const KernelSource& source) {
   Hash128 hash;
-  hash.add(fmt::format("recipe {}, glslang {}.{}.{}", kRecipe, GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH));
+  hash.add(fmt::format("recipe {}, glslang {}.{}.{}", kRecipe, GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
+                       GLSLANG_VERSION_PATCH));
   hash.add(source.file);
   hash.add(define_lines(source));
   for (const auto& [name, text] : texts) {

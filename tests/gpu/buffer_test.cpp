@@ -75,12 +75,15 @@ TEST_P(BufferTest, OfNoBytesHasFour) {
 TEST_F(GpuTest, BuffersOverALimitAreRefusedByNameAndSize) {
   open();
   const std::uint64_t storage = info(*device).max_storage_buffer_range;
-  EXPECT_THAT(device_error_of([&] { create_buffer(*device, storage + 1, BufferUse::storage, "the coefficients"); }),
-              AllOf(HasSubstr("the coefficients"), HasSubstr(std::to_string(storage + 1)), HasSubstr(std::to_string(storage))));
+  EXPECT_THAT(
+      device_error_of([&] { create_buffer(*device, storage + 1, BufferUse::storage, "the coefficients"); }),
+      AllOf(HasSubstr("the coefficients"), HasSubstr(std::to_string(storage + 1)), HasSubstr(std::to_string(storage))));
   const std::uint64_t texels = info(*device).max_texel_buffer_elements;
-  EXPECT_THAT(device_error_of([&] { create_buffer(*device, 4 * (texels + 1), BufferUse::texel, "texels", VK_FORMAT_R32_SFLOAT); }),
+  EXPECT_THAT(device_error_of(
+                  [&] { create_buffer(*device, 4 * (texels + 1), BufferUse::texel, "texels", VK_FORMAT_R32_SFLOAT); }),
               AllOf(HasSubstr("texels"), HasSubstr(std::to_string(texels + 1))));
-  EXPECT_THAT(device_error_of([&] { create_buffer(*device, 1u << 31, BufferUse::uniform, "parameters"); }), HasSubstr("parameters"));
+  EXPECT_THAT(device_error_of([&] { create_buffer(*device, 1u << 31, BufferUse::uniform, "parameters"); }),
+              HasSubstr("parameters"));
   for (const std::uint64_t absurd : {std::uint64_t{1} << 50, UINT64_MAX}) {
     EXPECT_THAT(device_error_of([&] { create_buffer(*device, absurd, BufferUse::address, "absurd"); }),
                 AllOf(HasSubstr("absurd"), HasSubstr(std::to_string(absurd))));
@@ -90,9 +93,11 @@ TEST_F(GpuTest, BuffersOverALimitAreRefusedByNameAndSize) {
 TEST_F(GpuTest, TexelBuffersNeedAFormatTheDeviceReads) {
   open();
   EXPECT_THROW(create_buffer(*device, 16, BufferUse::texel, "formless"), std::runtime_error);
-  EXPECT_THAT(device_error_of([&] { create_buffer(*device, 16, BufferUse::texel, "depths", VK_FORMAT_D24_UNORM_S8_UINT); }),
-              AllOf(HasSubstr("depths"), HasSubstr("D24UnormS8Uint")));
-  EXPECT_NE(create_buffer(*device, 16, BufferUse::texel, "floats", VK_FORMAT_R32_SFLOAT).view, VkBufferView{VK_NULL_HANDLE});
+  EXPECT_THAT(
+      device_error_of([&] { create_buffer(*device, 16, BufferUse::texel, "depths", VK_FORMAT_D24_UNORM_S8_UINT); }),
+      AllOf(HasSubstr("depths"), HasSubstr("D24UnormS8Uint")));
+  EXPECT_NE(create_buffer(*device, 16, BufferUse::texel, "floats", VK_FORMAT_R32_SFLOAT).view,
+            VkBufferView{VK_NULL_HANDLE});
 }
 
 TEST_F(GpuTest, AddressedBuffersMayPassTheStorageLimit) {

@@ -18,9 +18,9 @@ DeviceInfo made_up(std::uint32_t index, const std::string& name, const std::stri
 }
 
 const std::vector<DeviceInfo> kDevices = {
-    made_up(0, "llvmpipe (LLVM 15)", "CPU"),           made_up(1, "Virtio-GPU Venus", "virtual GPU"),
-    made_up(2, "Radeon 780M", "integrated GPU"),       made_up(3, "GeForce 210", "discrete GPU", false),
-    made_up(4, "NVIDIA H200", "discrete GPU"),         made_up(5, "NVIDIA H200 second", "discrete GPU"),
+    made_up(0, "llvmpipe (LLVM 15)", "CPU"),     made_up(1, "Virtio-GPU Venus", "virtual GPU"),
+    made_up(2, "Radeon 780M", "integrated GPU"), made_up(3, "GeForce 210", "discrete GPU", false),
+    made_up(4, "NVIDIA H200", "discrete GPU"),   made_up(5, "NVIDIA H200 second", "discrete GPU"),
 };
 
 std::string error_of(std::span<const DeviceInfo> devices, const std::string& select) {
@@ -56,7 +56,8 @@ TEST(DeviceChoice, IndexIsThatOfTheListAlsoWhereTheListIsAPart) {
 }
 
 TEST(DeviceChoice, ErrorsListTheDevices) {
-  EXPECT_THAT(error_of(kDevices, "6"), AllOf(HasSubstr("index 6"), HasSubstr("0: llvmpipe"), HasSubstr("4: NVIDIA H200 (discrete")));
+  EXPECT_THAT(error_of(kDevices, "6"),
+              AllOf(HasSubstr("index 6"), HasSubstr("0: llvmpipe"), HasSubstr("4: NVIDIA H200 (discrete")));
   EXPECT_THAT(error_of(kDevices, "99999999999999999999"), HasSubstr("no device of index 99999999999999999999"));
   EXPECT_THAT(error_of(kDevices, "voodoo"), AllOf(HasSubstr("'voodoo'"), HasSubstr("2: Radeon 780M (integrated GPU)")));
   EXPECT_THAT(error_of(kDevices, "3"), AllOf(HasSubstr("GeForce 210"), HasSubstr("lacks Vulkan 1.2")));

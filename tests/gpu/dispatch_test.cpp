@@ -45,7 +45,8 @@ TEST_P(DispatchTest, ComputesWhatTheHostComputes) {
   const Pipeline pipeline = make(kDouble);
   std::vector<std::uint32_t> values(100001);
   std::iota(values.begin(), values.end(), 17u);
-  const Buffer source = filled(values), result = create_buffer(*device, 4 * values.size(), BufferUse::storage, "result");
+  const Buffer source = filled(values),
+               result = create_buffer(*device, 4 * values.size(), BufferUse::storage, "result");
   // Twice, the second from the first one's result: what a dispatch wrote is there for the next.
   const auto count = static_cast<std::uint32_t>(values.size());
   dispatch(*device, pipeline, {{"source", source}, {"result", result}}, push_bytes({count, 3}), (count + 63) / 64);
@@ -81,10 +82,13 @@ TEST_F(GpuTest, TexelBuffersAndUniformBlocksAreRead) {
     layout(binding = 3) buffer Out { float v[]; } result;
     void main() {
       int i = int(gl_LocalInvocationIndex);
-      result.v[i] = texelFetch(samples, 3 - i).x * frame.scale + float(texelFetch(bits, i).y) + float(textureSize(samples));
+      float scaled = texelFetch(samples, 3 - i).x * frame.scale;
+      result.v[i] = scaled + float(texelFetch(bits, i).y) + float(textureSize(samples));
     })");
-  const Buffer samples = filled(std::vector<std::uint16_t>{0, 65535, 0, 65535, 1}, BufferUse::texel, VK_FORMAT_R16_UNORM);
-  const Buffer bits = filled(std::vector<std::uint32_t>{1, 10, 2, 20, 3, 30, 4, 40}, BufferUse::texel, VK_FORMAT_R32G32_UINT);
+  const Buffer samples =
+      filled(std::vector<std::uint16_t>{0, 65535, 0, 65535, 1}, BufferUse::texel, VK_FORMAT_R16_UNORM);
+  const Buffer bits =
+      filled(std::vector<std::uint32_t>{1, 10, 2, 20, 3, 30, 4, 40}, BufferUse::texel, VK_FORMAT_R32G32_UINT);
   const Buffer frame = filled(std::vector<float>{0, 0, 0, 0, 100.0f}, BufferUse::uniform);
   const Buffer result = create_buffer(*device, 16, BufferUse::storage, "result");
   dispatch(*device, pipeline, {{"samples", samples}, {"bits", bits}, {"frame", frame}, {"result", result}}, {}, 1);
@@ -132,7 +136,8 @@ TEST_F(GpuTest, SpecializationConstantsAreSetByNameAndKeepTheirDefaults) {
 }
 
 TEST_F(GpuTest, SpecializedWorkGroupsAreCheckedAgainstTheDevice) {
-  const char* const glsl = "#version 460\nlayout(local_size_x_id = 0) in;\nlayout(constant_id = 0) const uint kLanes = 1;\nvoid main() {}\n";
+  const char* const glsl =
+      "#version 460\nlayout(local_size_x_id = 0) in;\nlayout(constant_id = 0) const uint kLanes = 1;\nvoid main() {}\n";
   EXPECT_THROW(make(glsl, {{"kLanes", 1u << 20}}), DeviceError);
   EXPECT_THROW(make(glsl, {{"kLanes", 0}}), DeviceError);
 }
@@ -146,7 +151,8 @@ TEST_F(GpuTest, ResourcesMissingTooManyOrWrongAreNamed) {
     return error_of([&] { dispatch(*device, pipeline, resources, push, 1); });
   };
   EXPECT_THAT(error({{"source", b}}), HasSubstr("'result' was not given"));
-  EXPECT_THAT(error({{"source", b}, {"result", b}, {"grid", b}}), AllOf(HasSubstr("no resource 'grid'"), HasSubstr("source, result")));
+  EXPECT_THAT(error({{"source", b}, {"result", b}, {"grid", b}}),
+              AllOf(HasSubstr("no resource 'grid'"), HasSubstr("source, result")));
   EXPECT_THAT(error({{"source", b}, {"result", b}, {"source", b}}), HasSubstr("'source' was given twice"));
   EXPECT_THAT(error({{"source", uniform}, {"result", b}}), HasSubstr("'source'"));
   EXPECT_THAT(error({{"source", Buffer()}, {"result", b}}), HasSubstr("empty"));
@@ -170,7 +176,9 @@ TEST_F(GpuTest, UniformBuffersSmallerThanTheirBlockAreRefused) {
     void main() { result.v[0] = frame.b.x; })");
   const Buffer result = create_buffer(*device, 4, BufferUse::storage, "result");
   const Buffer small = create_buffer(*device, 16, BufferUse::uniform, "small");
-  EXPECT_THAT(error_of([&] { dispatch(*device, pipeline, {{"frame", small}, {"result", result}}, {}, 1); }),
+  EXPECT_THAT(error_of([&] {
+                dispatch(*device, pipeline, {{"frame", small}, {"result", result}}, {}, 1);
+              }),
               AllOf(HasSubstr("'frame'"), HasSubstr("32 bytes"), HasSubstr("16")));
 }
 

@@ -44,10 +44,9 @@ TEST(Reflection, FindsTheBindingsThatAreUsedAndNoOthers) {
     layout(binding = 4) buffer Spare { float s[]; } spare;
     layout(binding = 3) uniform samplerBuffer spare_samples;
     void main() { result.o[0] = texelFetch(samples, 1).x * scale; })");
-  EXPECT_THAT(reflection.bindings,
-              ElementsAre(is_binding("samples", 2, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
-                          is_binding("Frame", 5, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
-                          is_binding("result", 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)));
+  EXPECT_THAT(reflection.bindings, ElementsAre(is_binding("samples", 2, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
+                                               is_binding("Frame", 5, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+                                               is_binding("result", 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)));
   EXPECT_EQ(reflection.bindings[1].struct_bytes, 20u);
   EXPECT_EQ(reflection.push_constant_bytes, 0u);
 }
@@ -73,6 +72,16 @@ TEST(Reflection, GivesOffsetsOfMembersAndOfTheirMembers) {
   EXPECT_EQ(reflection.push_constant_bytes, 32u);
 }
 
+TEST(Reflection, AddsUpOffsetsThroughEveryLevel) {
+  const Reflection reflection = reflected(R"(
+    layout(local_size_x = 1) in;
+    struct Lens { float focus; float width; };
+    struct Camera { vec4 eye; Lens lens; };
+    layout(binding = 0, std430) buffer Frame { vec4 size; Camera camera; } frame;
+    void main() { frame.camera.lens.width = 1.0; })");
+  EXPECT_THAT(reflection.members, ::testing::Contains(is_member("frame", "camera.lens.width", 36)));  // 16 + 16 + 4
+}
+
 TEST(Reflection, NamesSpecializationConstantsAndTheWorkGroup) {
   const Reflection reflection = reflected(R"(
     layout(local_size_x_id = 3, local_size_y = 4) in;
@@ -93,19 +102,25 @@ TEST(Reflection, OfAKernelThatUsesNothingIsEmpty) {
 }
 
 TEST(Reflection, RefusesWhatIsNotOfferedByName) {
-  EXPECT_THAT(error_of("layout(set = 1, binding = 0) buffer Out { float o[]; } elsewhere; void main() { elsewhere.o[0] = 1.0; }"),
-              AllOf(HasSubstr("elsewhere"), HasSubstr("set 1")));
-  EXPECT_THAT(error_of("layout(binding = 0) buffer Out { float o[]; } several[2]; void main() { several[0].o[0] = 1.0; }"),
-              AllOf(HasSubstr("several"), HasSubstr("array")));
-  EXPECT_THAT(error_of("layout(binding = 0, r32f) uniform image2D picture; void main() { imageStore(picture, ivec2(0), vec4(1)); }"),
-              HasSubstr("picture"));
+  EXPECT_THAT(
+      error_of(
+          "layout(set = 1, binding = 0) buffer Out { float o[]; } elsewhere; void main() { elsewhere.o[0] = 1.0; }"),
+      AllOf(HasSubstr("elsewhere"), HasSubstr("set 1")));
+  EXPECT_THAT(
+      error_of("layout(binding = 0) buffer Out { float o[]; } several[2]; void main() { several[0].o[0] = 1.0; }"),
+      AllOf(HasSubstr("several"), HasSubstr("array")));
+  EXPECT_THAT(
+      error_of(
+          "layout(binding = 0, r32f) uniform image2D picture; void main() { imageStore(picture, ivec2(0), vec4(1)); }"),
+      HasSubstr("picture"));
   EXPECT_THAT(error_of("layout(binding = 0) buffer A { float o[]; } a; layout(binding = 0) buffer B { uint o[]; } b;"
                        "void main() { a.o[0] = 1.0; b.o[1] = 1; }"),
               AllOf(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("binding 0")));
 }
 
 TEST(Reflection, RefusesWordsThatAreNoKernelAtEveryLength) {
-  const auto spirv = compiled("layout(local_size_x = 1) in; layout(binding = 0) buffer O { float o[]; } r; void main() { r.o[0] = 1.0; }");
+  const auto spirv = compiled(
+      "layout(local_size_x = 1) in; layout(binding = 0) buffer O { float o[]; } r; void main() { r.o[0] = 1.0; }");
   EXPECT_THROW(reflect({}), std::runtime_error);
   EXPECT_THROW(reflect(std::vector<std::uint32_t>(100, 0)), std::runtime_error);
   EXPECT_THROW(reflect(std::span(spirv).first(5)), std::runtime_error);

@@ -8,7 +8,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const char* const kHead = "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Out { float o[]; } result;\n";
+const char* const kHead =
+    "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Out { float o[]; } result;\n";
 
 std::string error_of(const Files& files, const KernelSource& source) {
   try {
@@ -21,12 +22,14 @@ std::string error_of(const Files& files, const KernelSource& source) {
 
 TEST(Shader, ErrorNamesFileAndLine) {
   const Files files{{{"main.comp", std::string(kHead) + "void main() {\n  result.o[0] = wrong;\n}\n"}}};
-  EXPECT_THAT(error_of(files, {"main.comp", {}}), AllOf(StartsWith("main.comp:5: "), HasSubstr("wrong"), Not(HasSubstr("ERROR"))));
+  EXPECT_THAT(error_of(files, {"main.comp", {}}),
+              AllOf(StartsWith("main.comp:5: "), HasSubstr("wrong"), Not(HasSubstr("ERROR"))));
 }
 
 TEST(Shader, ErrorInAnIncludedFileNamesThatFileAndLine) {
-  const Files files{{{"main.comp", std::string(kHead) + "#include \"shared/part.glsl\"\nvoid main() { result.o[0] = f(); }\n"},
-                     {"shared/part.glsl", "\n\nfloat f() { return nothing; }\n"}}};
+  const Files files{
+      {{"main.comp", std::string(kHead) + "#include \"shared/part.glsl\"\nvoid main() { result.o[0] = f(); }\n"},
+       {"shared/part.glsl", "\n\nfloat f() { return nothing; }\n"}}};
   EXPECT_THAT(error_of(files, {"main.comp", {}}), StartsWith("shared/part.glsl:3: "));
 }
 
@@ -37,13 +40,15 @@ TEST(Shader, ErrorAfterAnIncludeCountsTheLinesOfItsOwnFile) {
 }
 
 TEST(Shader, OfSeveralErrorsTheFirstIsToldInOneLine) {
-  const Files files{{{"main.comp", std::string(kHead) + "void main() {\n  result.o[0] = one;\n  result.o[1] = two;\n}\n"}}};
-  EXPECT_THAT(error_of(files, {"main.comp", {}}), AllOf(StartsWith("main.comp:5: "), HasSubstr("one"), Not(HasSubstr("\n"))));
+  const Files files{
+      {{"main.comp", std::string(kHead) + "void main() {\n  result.o[0] = one;\n  result.o[1] = two;\n}\n"}}};
+  EXPECT_THAT(error_of(files, {"main.comp", {}}),
+              AllOf(StartsWith("main.comp:5: "), HasSubstr("one"), Not(HasSubstr("\n"))));
 }
 
 TEST(Shader, MissingFilesAndFunctionsAreNamed) {
-  const Files files{{{"main.comp", std::string(kHead) + "#include \"absent.glsl\"\nvoid main() {}\n"},
-                     {"empty.comp", kHead}}};
+  const Files files{
+      {{"main.comp", std::string(kHead) + "#include \"absent.glsl\"\nvoid main() {}\n"}, {"empty.comp", kHead}}};
   EXPECT_THAT(error_of(files, {"nowhere.comp", {}}), HasSubstr("nowhere.comp"));
   EXPECT_THAT(error_of(files, {"main.comp", {}}), AllOf(StartsWith("main.comp:4: "), HasSubstr("absent.glsl")));
   EXPECT_THAT(error_of(files, {"empty.comp", {}}), AllOf(StartsWith("empty.comp: "), HasSubstr("entry point")));
@@ -57,19 +62,22 @@ TEST(Shader, IncludesThatGoRoundInACircleAreAnErrorAndNoHang) {
 }
 
 TEST(Shader, IncludesAreSoughtBesideTheIncluderFirst) {
-  const Files files{{{"main.comp", std::string(kHead) + "#include \"shared/a.h\"\nvoid main() { result.o[0] = b(); }\n"},
-                     {"shared/a.h", "#include \"b.h\"\n"},
-                     {"shared/b.h", "float b() { return 1.0; }\n"},
-                     {"b.h", "#error the wrong one\n"}}};
+  const Files files{
+      {{"main.comp", std::string(kHead) + "#include \"shared/a.h\"\nvoid main() { result.o[0] = b(); }\n"},
+       {"shared/a.h", "#include \"b.h\"\n"},
+       {"shared/b.h", "float b() { return 1.0; }\n"},
+       {"b.h", "#error the wrong one\n"}}};
   EXPECT_EQ(error_of(files, {"main.comp", {}}), "");
 }
 
 TEST(Shader, PragmaOnceIncludesOnceAndOtherFilesAsOftenAsAsked) {
-  const Files once{{{"main.comp", std::string(kHead) + "#include \"a.h\"\n#include \"a.h\"\nvoid main() { result.o[0] = a(); }\n"},
-                    {"a.h", "#pragma once\nfloat a() { return 1.0; }\n"}}};
+  const Files once{
+      {{"main.comp", std::string(kHead) + "#include \"a.h\"\n#include \"a.h\"\nvoid main() { result.o[0] = a(); }\n"},
+       {"a.h", "#pragma once\nfloat a() { return 1.0; }\n"}}};
   EXPECT_EQ(error_of(once, {"main.comp", {}}), "");
-  const Files twice{{{"main.comp", std::string(kHead) + "#include \"a.h\"\n#include \"a.h\"\nvoid main() { result.o[0] = a(); }\n"},
-                     {"a.h", "float a() { return 1.0; }\n"}}};
+  const Files twice{
+      {{"main.comp", std::string(kHead) + "#include \"a.h\"\n#include \"a.h\"\nvoid main() { result.o[0] = a(); }\n"},
+       {"a.h", "float a() { return 1.0; }\n"}}};
   EXPECT_THAT(error_of(twice, {"main.comp", {}}), StartsWith("a.h:1: "));
 }
 
@@ -84,8 +92,10 @@ TEST(Shader, DefinesChooseWhatIsCompiled) {
 }
 
 TEST(Shader, FunctionsKeepTheirNames) {
-  const Files files{{{"main.comp", std::string(kHead) +
-                                       "float march_step(float x) { return x * 2.0; }\nvoid main() { result.o[0] = march_step(1.0); }\n"}}};
+  const Files files{
+      {{"main.comp",
+        std::string(kHead) +
+            "float march_step(float x) { return x * 2.0; }\nvoid main() { result.o[0] = march_step(1.0); }\n"}}};
   const auto spirv = compile(files.lookup(), {"main.comp", {}});
   const std::string_view text(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
   EXPECT_NE(text.find("march_step("), std::string_view::npos);

@@ -72,7 +72,8 @@ class GpuTest : public ::testing::Test {
   }
 
   template <class T>
-  Buffer filled(const std::vector<T>& values, BufferUse use = BufferUse::storage, VkFormat format = VK_FORMAT_UNDEFINED) {
+  Buffer filled(const std::vector<T>& values, BufferUse use = BufferUse::storage,
+                VkFormat format = VK_FORMAT_UNDEFINED) {
     const Buffer buffer = create_buffer(*device, values.size() * sizeof(T), use, "test values", format);
     upload(*device, buffer, bytes_of(values));
     return buffer;

@@ -56,13 +56,15 @@ TEST(Validation, AllThatWasMadeIsDestroyed) {
   const TemporaryFolder folder;
   auto device = open_validated(folder);
   {
-    const Files files{{{"k.comp", "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer O { uint v[]; } r;\n"
-                                  "void main() { r.v[0] = 1; }\n"}}};
+    const Files files{{{"k.comp",
+                        "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer O { uint v[]; } r;\n"
+                        "void main() { r.v[0] = 1; }\n"}}};
     const Pipeline pipeline = create_pipeline(*device, compile(*device, files.lookup(), {"k.comp", {}}));
     const Buffer storage = create_buffer(*device, 64, BufferUse::storage, "storage");
     const Buffer texel = create_buffer(*device, 64, BufferUse::texel, "texel", VK_FORMAT_R8_UNORM);
     dispatch(*device, pipeline, {{"r", storage}}, {}, 1);
-    EXPECT_THROW(create_buffer(*device, std::uint64_t{1} << 60, BufferUse::texel, "too large", VK_FORMAT_R32_SFLOAT), DeviceError);
+    EXPECT_THROW(create_buffer(*device, std::uint64_t{1} << 60, BufferUse::texel, "too large", VK_FORMAT_R32_SFLOAT),
+                 DeviceError);
   }
   EXPECT_THAT(validation_messages(*device), IsEmpty());
   ::testing::internal::CaptureStderr();
