@@ -6,7 +6,6 @@
 // SPLINE_SCALE times the spline's: the division never happens.
 #define COEFFICIENT(number) coefficient(number)
 #include "bcc7_tables.glsl"
-#include "bernstein.glsl"
 
 const float SPLINE_SCALE = BCC7_SCALE;
 
@@ -98,6 +97,7 @@ void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float off
   BCC7_RESTRICT(b[0], b[1], b[2], b[3], b[4], p.x, p.y, p.z, q.x, q.y, q.z)
 }
 
+#if defined(MARCH) || defined(NORMAL_CENTRAL)
 // SPLINE_SCALE times the value at u, less `offset`.
 float spline_value(SplineCell cell, vec3 u, float offset) {
   AxisOrder order = axis_order(u);
@@ -114,6 +114,7 @@ float spline_value_at(vec3 p, vec3 centre, float offset) {
   SplineCell cell = spline_cell(at, centre);
   return spline_value(cell, cell_point(cell, p, vec3(0.0), 0.0), offset);
 }
+#endif
 
 #define SPLINE_GRADIENT(w) vec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
 

@@ -7,6 +7,8 @@
 // No lane leaves a loop before its subgroup does: what a lane found is kept by selection. (Mesa 22.3's lavapipe gives lanes
 // that left a do-while early the values of the last trip; and a masked lane costs it as much as a live one.)
 
+#include "bernstein.glsl"
+
 struct Caster {
   Walk walk;
   bool live;         // the ray has not ended

@@ -1,5 +1,1 @@
-// No structure: everything may matter.
-bool skip_probe(Ray ray, ivec3 cell, float t, inout int level, out float until) {
-  until = ray.end;
-  return true;
-}
+// No structure: everything may matter, so there is nothing to ask and skip_probe does not exist (walk.glsl, without SKIP).

@@ -43,7 +43,7 @@ bool occupied(uvec2 brick, ivec3 cell) {
 
 // Where `wanted`, moves to the next cell that may matter, from walk.cell on; false where the ray ends before one.
 bool find_cell(Ray ray, inout Walk walk, bool wanted) {
-#if !defined(SKIP) && !defined(CELL_TEST)
+#ifndef SKIP
 #ifdef COST
   walk.steps += wanted ? 1u : 0u;
 #endif
