@@ -31,6 +31,7 @@ std::string error_of(Function&& function) {
   return "";
 }
 
+// Only as an argument: the bytes live as long as the vector.
 std::span<const std::byte> push_bytes(const std::vector<std::uint32_t>& push) { return bytes_of(push); }
 
 class DispatchTest : public GpuTest, public ::testing::WithParamInterface<Transfer> {
@@ -146,9 +147,9 @@ TEST_F(GpuTest, ResourcesMissingTooManyOrWrongAreNamed) {
   const Pipeline pipeline = make(kDouble);
   const Buffer b = create_buffer(*device, 64, BufferUse::storage, "b");
   const Buffer uniform = create_buffer(*device, 64, BufferUse::uniform, "u");
-  const auto push = push_bytes({1, 0});
+  const std::vector<std::uint32_t> push = {1, 0};
   const auto error = [&](const Resources& resources) {
-    return error_of([&] { dispatch(*device, pipeline, resources, push, 1); });
+    return error_of([&] { dispatch(*device, pipeline, resources, bytes_of(push), 1); });
   };
   EXPECT_THAT(error({{"source", b}}), HasSubstr("'result' was not given"));
   EXPECT_THAT(error({{"source", b}, {"result", b}, {"grid", b}}),
