@@ -15,8 +15,10 @@ namespace {
 
 constexpr int kTile = 8;                     // pixels of a group's edge
 constexpr int kMaxCoefficientBuffers = 8;    // bindings of coefficients.glsl
-constexpr std::int64_t kBandPixels = 1 << 22;  // of one dispatch at most, so that progress and Ctrl-C come through
-constexpr std::uint64_t kPixelBytes = 16;
+constexpr std::int64_t kBandPixels = 1 << 21;  // of one dispatch at most, so that progress and Ctrl-C come through
+constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
+constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
+constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& v) {
@@ -45,9 +47,9 @@ void check_block(int block) {
 
 }  // namespace
 
-DeviceRenderer::DeviceRenderer(std::shared_ptr<gpu::Device> device, const Volume& volume, const Config& config, const DeviceLimits& limits)
-    : device_(std::move(device)), config_(config), limits_(limits), spline_(make_spline(config.spline)), volume_(volume) {
-  const gpu::DeviceInfo& device_info = gpu::info(*device_);
+DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
+    : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits), spline_(make_spline(config.spline)), volume_(volume) {
+  const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
 }
@@ -66,7 +68,7 @@ DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
   const std::uint64_t buffers = (count + (std::uint64_t(1) << shift) - 1) >> shift;
   if (buffers > kMaxCoefficientBuffers)
     throw gpu::DeviceError(fmt::format("{}: {} coefficients need {} texel buffers of 2^{} elements; expected at most {}",
-                                       gpu::info(*device_).name, count, buffers, shift, kMaxCoefficientBuffers));
+                                       gpu::info(device_).name, count, buffers, shift, kMaxCoefficientBuffers));
   return {int(buffers), shift};
 }
 
@@ -113,8 +115,8 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   for (int i = 0; i < layout.buffers; ++i) {
     const std::span<const float> part = all.subspan(i * each, std::min(each, all.size() - i * each));
     // Kernels read every buffer at every number: all are of one length.
-    gpu::Buffer buffer = gpu::create_buffer(*device_, each * sizeof(float), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT);
-    gpu::upload(*device_, buffer, std::as_bytes(part));
+    gpu::Buffer buffer = gpu::create_buffer(device_, each * sizeof(float), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT);
+    gpu::upload(device_, buffer, std::as_bytes(part));
     coefficient_buffers_.push_back(std::move(buffer));
   }
   stats.upload_ms += upload.ms();
@@ -146,8 +148,8 @@ void DeviceRenderer::prepare_structure(const Request& request, const std::vector
   const Stopwatch upload;
   structure_buffers_.clear();
   for (const StructureBuffer& buffer : structure_->buffers())
-    structure_buffers_.emplace_back(buffer.name, upload_new(*device_, buffer.bytes, gpu::BufferUse::texel, buffer.name, VK_FORMAT_R8_UINT));
-  occupancy_ = wanted.cell_test ? upload_new(*device_, bytes_of(cell_bits.words), gpu::BufferUse::texel, "occupancy", VK_FORMAT_R32G32_UINT)
+    structure_buffers_.emplace_back(buffer.name, upload_new(device_, buffer.bytes, gpu::BufferUse::texel, buffer.name, VK_FORMAT_R8_UINT));
+  occupancy_ = wanted.cell_test ? upload_new(device_, bytes_of(cell_bits.words), gpu::BufferUse::texel, "occupancy", VK_FORMAT_R32G32_UINT)
                                 : gpu::Buffer{};
   stats.upload_ms += upload.ms();
   block_count_ = classification.level.size();
@@ -164,20 +166,7 @@ void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfac
     data.insert(data.end(), {float(s.isovalue), float(s.opacity), 0.0f, 0.0f});
     data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
   }
-  isosurfaces_ = upload_new(*device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
-}
-
-const gpu::Pipeline& DeviceRenderer::pipeline(const KernelVariant& v, int block, RenderStats& stats) {
-  const std::pair key(v, v.structure == "none" ? 0 : block);
-  const auto found = pipelines_.find(key);
-  if (found != pipelines_.end()) return found->second;
-  const Stopwatch watch;
-  const std::vector<std::uint32_t> spirv = gpu::compile(*device_, kernel_files(v), kernel_source(v));
-  std::vector<std::pair<std::string, std::uint32_t>> constants;
-  if (v.structure != "none") constants.emplace_back("BLOCK_SHIFT", std::uint32_t(std::countr_zero(unsigned(block))));
-  gpu::Pipeline made = gpu::create_pipeline(*device_, spirv, constants);
-  stats.compile_ms += watch.ms();
-  return pipelines_.emplace(key, std::move(made)).first->second;
+  isosurfaces_ = upload_new(device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
 }
 
 // ---- pictures ----
@@ -188,16 +177,17 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   Band band;
   band.rows = int(std::min<std::int64_t>(rows, scene.height));
   const std::uint64_t bytes = std::uint64_t(band.rows) * scene.width * kPixelBytes;
-  band.color = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "color");
-  band.hit = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "hit");
-  if (cost) band.cost = gpu::create_buffer(*device_, bytes, gpu::BufferUse::storage, "cost");
+  band.color = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "color");
+  band.hit = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "hit");
+  if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
+  band.rays = gpu::create_buffer(device_, bytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
   return band;
 }
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
   gpu::Resources all = structure_buffers_;
   all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"occupancy", occupancy_},
-                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}});
+                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
   for (std::size_t i = 0; i < coefficient_buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), coefficient_buffers_[i]);
   // What the variant leaves out is not bound.
   std::erase_if(all, [&](const auto& resource) {
@@ -207,18 +197,26 @@ gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Ba
   return all;
 }
 
-double DeviceRenderer::trace(const gpu::Pipeline& pipeline, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
+double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, int width, int rows) {
+  std::uint32_t rays = 0;
+  gpu::upload(device_, band.rays, std::as_bytes(std::span(&rays, 1)));
+  double ms = gpu::dispatch(device_, kernels.enter, resources(kernels.enter, band), {}, (width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+  gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
+  ms += gpu::dispatch(device_, kernels.trace, resources(kernels.trace, band), {}, (rays + kTraceGroup - 1) / kTraceGroup);
+  return ms;
+}
+
+double DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
   TraceParameters p = trace_parameters(scene, *coefficients_);
-  p.blocks = ivec4(glm::ivec3(block_extents_), 0);
+  p.blocks = ivec4(glm::ivec3(block_extents_), std::countr_zero(unsigned(built_.block)));
   p.bricks = ivec4(glm::ivec3(brick_extents_), 0);
-  parameters_ = gpu::create_buffer(*device_, sizeof p, gpu::BufferUse::uniform, "parameters");
-  const gpu::Resources bound = resources(pipeline, band);
+  parameters_ = gpu::create_buffer(device_, sizeof p, gpu::BufferUse::uniform, "parameters");
   double ms = 0.0;
   for (int row = 0; row < scene.height; row += band.rows) {
     const int rows = std::min(band.rows, scene.height - row);
     p.picture = ivec4(scene.width, scene.height, row, rows);
-    gpu::upload(*device_, parameters_, std::as_bytes(std::span(&p, 1)));
-    ms += gpu::dispatch(*device_, pipeline, bound, {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+    gpu::upload(device_, parameters_, std::as_bytes(std::span(&p, 1)));
+    ms += trace_band(kernels, band, scene.width, rows);
     if (frame) read_band(band, row, rows, *frame);
     report(progress, double(row + rows) / scene.height);
   }
@@ -227,15 +225,15 @@ double DeviceRenderer::trace(const gpu::Pipeline& pipeline, const Scene& scene, 
 
 void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame) {
   const std::size_t first = std::size_t(row) * frame.width, count = std::size_t(rows) * frame.width;
-  gpu::download(*device_, band.color, std::as_writable_bytes(std::span(frame.color).subspan(4 * first, 4 * count)));
+  gpu::download(device_, band.color, std::as_writable_bytes(std::span(frame.color).subspan(4 * first, 4 * count)));
   std::vector<glm::vec4> pixels(count);
-  gpu::download(*device_, band.hit, std::as_writable_bytes(std::span(pixels)));
+  gpu::download(device_, band.hit, std::as_writable_bytes(std::span(pixels)));
   for (std::size_t i = 0; i < count; ++i) {
     for (int a = 0; a < 3; ++a) frame.normal[3 * (first + i) + a] = pixels[i][a];
     frame.depth[first + i] = pixels[i].w;
   }
   if (frame.cost.empty()) return;
-  gpu::download(*device_, band.cost, std::as_writable_bytes(std::span(pixels)));
+  gpu::download(device_, band.cost, std::as_writable_bytes(std::span(pixels)));
   for (std::size_t i = 0; i < count; ++i)
     for (int a = 0; a < 3; ++a) frame.cost[3 * (first + i) + a] = pixels[i][a];
 }
@@ -243,7 +241,7 @@ void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame
 std::uint64_t DeviceRenderer::count_evaluations(Request request, const Progress& progress) {
   request.scene.cost = true;
   RenderStats unused;
-  const gpu::Pipeline& counting = pipeline(variant(request), request.skip.block, unused);
+  const Kernels& counting = kernels_->kernels(variant(request), unused.compile_ms);
   Band band = make_band(request.scene, true);
   Frame frame = empty_frame(request.scene);
   trace(counting, request.scene, band, &frame, progress);
@@ -266,9 +264,9 @@ void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   std::uint64_t coefficients = 0, structure = 0;
   for (const gpu::Buffer& b : coefficient_buffers_) coefficients += b.bytes;
   for (const auto& [name, b] : structure_buffers_) structure += b.bytes;
-  stats.device = gpu::info(*device_).name;
+  stats.device = gpu::info(device_).name;
   stats.device_bytes = {{"coefficients", coefficients}, {"structure", structure}, {"occupancy", occupancy_.bytes},
-                        {"frame", band.color.bytes + band.hit.bytes + band.cost.bytes},
+                        {"frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes},
                         {"parameters", parameters_.bytes + isosurfaces_.bytes}};
   stats.blocks = block_count_;
   stats.active_blocks = active_blocks_;
@@ -289,19 +287,19 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   prepare_bounds(visible, stats, progress);
   prepare_structure(visible, isovalues, stats);
   upload_isosurfaces(visible.scene.isosurfaces);
-  const gpu::Pipeline& kernel = pipeline(variant(visible), visible.skip.block, stats);
+  const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);
 
   Band band = make_band(visible.scene, visible.scene.cost);
   Frame frame = empty_frame(visible.scene);
-  if (request.repeat > 1) trace(kernel, visible.scene, band, nullptr, {});  // warm-up
+  if (request.repeat > 1) trace(made, visible.scene, band, nullptr, {});  // warm-up
   for (int i = 0; i < request.repeat; ++i)
-    stats.trace_ms.push_back(trace(kernel, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
+    stats.trace_ms.push_back(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
   describe(band, stats);
   if (request.count_evaluations) stats.evaluations = count_evaluations(visible, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;
   stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
-  if (config_.validation && !gpu::validation_messages(*device_).empty())
-    throw std::runtime_error("validation: " + gpu::validation_messages(*device_).front());
+  if (config_.validation && !gpu::validation_messages(device_).empty())
+    throw std::runtime_error("validation: " + gpu::validation_messages(device_).front());
   return frame;
 }
 

@@ -1,7 +1,6 @@
 // The renderer on a Vulkan device.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,7 +8,7 @@
 #include "accel/classification.h"
 #include "accel/structure.h"
 #include "gpu/gpu.h"
-#include "render/kernel.h"
+#include "render/kernel_cache.h"
 #include "render/renderer.h"
 #include "render/trace_frame.h"
 
@@ -23,7 +22,7 @@ struct DeviceLimits {
 
 class DeviceRenderer final : public Renderer {
  public:
-  DeviceRenderer(std::shared_ptr<gpu::Device> device, const Volume& volume, const Config& config, const DeviceLimits& limits = {});
+  DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits = {});
 
   Frame render(const Request& request, RenderStats& stats, const Progress& progress = {}) override;
   std::vector<Feature> explain(const Request& request) override;
@@ -37,17 +36,17 @@ class DeviceRenderer final : public Renderer {
   /// What the picture is written to: rows that fit the device's limits at a time.
   struct Band {
     int rows = 0;
-    gpu::Buffer color, hit, cost;
+    gpu::Buffer color, hit, cost, rays;
   };
 
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   void prepare_structure(const Request& request, const std::vector<double>& isovalues, RenderStats& stats);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
-  const gpu::Pipeline& pipeline(const KernelVariant& variant, int block, RenderStats& stats);
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
-  double trace(const gpu::Pipeline& pipeline, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
+  double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
+  double trace_band(const Kernels& kernels, const Band& band, int width, int rows);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   std::uint64_t count_evaluations(Request request, const Progress& progress);
   static Frame empty_frame(const Scene& scene);
@@ -55,7 +54,8 @@ class DeviceRenderer final : public Renderer {
   CoefficientLayout coefficient_layout() const;
   bool uses_cells(const Request& request) const;
 
-  std::shared_ptr<gpu::Device> device_;
+  std::shared_ptr<KernelCache> kernels_;
+  gpu::Device& device_;  ///< that of kernels_
   Config config_;
   DeviceLimits limits_;
   std::unique_ptr<Spline> spline_;
@@ -79,7 +79,6 @@ class DeviceRenderer final : public Renderer {
   glm::i64vec3 block_extents_{0}, brick_extents_{0};
   std::vector<std::pair<std::string, gpu::Buffer>> structure_buffers_;
   gpu::Buffer occupancy_, isosurfaces_, parameters_;
-  std::map<std::pair<KernelVariant, int>, gpu::Pipeline> pipelines_;
 };
 
 }  // namespace quincunx

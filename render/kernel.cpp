@@ -33,16 +33,16 @@ constexpr Part kParts[] = {
     {"skipping structure", "SKIP", "skip_probe", skips, "--skip names one", "--skip none: no structure is bound"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
-    {"cost channels", "COST", "count_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
+    {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
     {"several coefficient buffers", nullptr, "coefficients1", [](const KernelVariant& v) { return v.coefficient_buffers > 1; },
      "the coefficients pass the device's limit for one buffer", "the coefficients fit one buffer"},
 };
 
 }  // namespace
 
-gpu::KernelSource kernel_source(const KernelVariant& variant) {
+gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
   gpu::KernelSource source;
-  source.file = "trace.comp";
+  source.file = pass == Pass::enter ? "enter.comp" : "trace.comp";
   for (const Part& part : kParts)
     if (part.define && part.wanted(variant)) source.defines.emplace_back(part.define, "1");
   source.defines.emplace_back("ISOVALUES", variant.many_isovalues ? "2" : "1");

@@ -26,12 +26,15 @@ struct KernelVariant {
   auto operator<=>(const KernelVariant&) const = default;
 };
 
+/// The passes of a picture: rays go to their first cell that may matter, and those that have one are traced.
+enum class Pass { enter, trace };
+
 /// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
-gpu::KernelSource kernel_source(const KernelVariant& variant);
+gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
 
 /// A part of the table, as it stands in the SPIR-V: the name of a function or of a buffer that is there exactly if the
-/// part is compiled in.
+/// part is compiled into a pass.
 struct KernelPart {
   Feature feature;
   std::string witness;

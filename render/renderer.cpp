@@ -19,7 +19,7 @@ std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume&
   gpu::DeviceConfig choice;
   choice.select = device;
   choice.validation = config.validation;
-  return std::make_unique<DeviceRenderer>(gpu::open_device(choice), volume, config);
+  return std::make_unique<DeviceRenderer>(std::make_shared<KernelCache>(gpu::open_device(choice)), volume, config);
 }
 
 }  // namespace quincunx

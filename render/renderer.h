@@ -47,7 +47,7 @@ class Renderer {
   struct Request {
     Scene scene;
     SkipConfig skip;
-    int repeat = 1;                  ///< frames to trace, all alike; the first is a warm-up when there are more than one
+    int repeat = 1;                  ///< frames to trace and time, all alike; when more than one, an untimed one warms up before
     bool count_evaluations = false;  ///< one more, untimed pass that counts
   };
 

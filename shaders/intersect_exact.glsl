@@ -22,9 +22,9 @@ struct Caster {
 #endif
 };
 
-Caster begin_caster(Ray ray) {
+Caster begin_caster(Ray ray, Walk walk) {
   Caster caster;
-  caster.walk = begin_walk(ray);
+  caster.walk = walk;
   caster.live = ray.begin < ray.end;
   caster.need_cell = true;
   caster.cell = caster.walk.cell;

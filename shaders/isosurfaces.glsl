@@ -6,8 +6,6 @@ layout(std430, binding = 2) readonly buffer Isosurfaces {
   vec4 isosurface[];  // 2k: isovalue, opacity; 2k + 1: colour
 };
 
-const int LEVEL_UNKNOWN = -1;
-
 // Kernels compute SPLINE_SCALE times the spline's values.
 float scaled_isovalue(int k) { return SPLINE_SCALE * isosurface[2 * k].x; }
 

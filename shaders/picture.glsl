@@ -10,7 +10,7 @@ layout(std430, binding = 6) writeonly buffer Hit {
   vec4 hit[];  // N.X N.Y N.Z Z
 };
 #ifdef COST
-layout(std430, binding = 7) writeonly buffer Cost {
+layout(std430, binding = 7) buffer Cost {
   vec4 cost[];  // evaluations, steps, intervals, 0
 };
 #endif
@@ -27,8 +27,13 @@ ivec2 lane_pixel() {
 bool in_picture(ivec2 pixel) { return pixel.x < parameters.picture.x && pixel.y < min(parameters.picture.y, parameters.picture.z + parameters.picture.w); }
 int pixel_number(ivec2 pixel) { return (pixel.y - parameters.picture.z) * parameters.picture.x + pixel.x; }
 
-#ifdef COST
-void count_cost(ivec2 pixel, uint evaluations, uint steps, uint intervals) {
-  cost[pixel_number(pixel)] = vec4(float(evaluations), float(steps), float(intervals), 0.0);
+void write_pixel(ivec2 pixel, vec4 rgba, vec4 normal_and_depth) {
+  int p = pixel_number(pixel);
+  color[p] = rgba;
+  hit[p] = normal_and_depth;
 }
+
+#ifdef COST
+vec3 read_cost(ivec2 pixel) { return cost[pixel_number(pixel)].xyz; }
+void write_cost(ivec2 pixel, vec3 counts) { cost[pixel_number(pixel)] = vec4(counts, 0.0); }
 #endif

@@ -30,9 +30,3 @@ void see(inout Seen seen, Ray ray, int k, vec3 gradient, float depth) {
   seen.transmittance = 0.0;
 #endif
 }
-
-void write_pixel(ivec2 pixel, Seen seen) {
-  int p = pixel_number(pixel);
-  color[p] = vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance);
-  hit[p] = seen.first;
-}

@@ -1,7 +1,9 @@
 #version 460
-// The ray caster: one kernel, composed of what the scene asks for (render/kernel.cpp lists the parts).
+// The tracing pass: the rays that may meet something, one a lane. Composed of what the scene asks for
+// (render/kernel.cpp lists the parts).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
@@ -12,29 +14,32 @@
 #include "picture.glsl"
 #include "surfaces.glsl"
 #include "hit.glsl"
+#include "rays.glsl"
 #include "intersect.glsl"
 
 void main() {
-  ivec2 pixel = lane_pixel();
-  bool inside = in_picture(pixel);
-  Ray ray = make_ray(pixel);
-  Caster caster = begin_caster(ray);
+  uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+  bool mine = number < ray_count;
+  PendingRay pending = pending_ray(mine ? number : 0u);
+  Ray ray = make_ray(pending.pixel);
+  Caster caster = begin_caster(ray, begin_walk(ray, pending.t, pending.level));
   Seen seen = nothing_seen();
   Root root;
 #ifdef COMPOSITE
-  bool seeking = inside;
+  bool seeking = mine;
   do {
     bool hit = next_hit(ray, caster, seeking, root);
     if (hit) see_root(seen, ray, root);
     seeking = hit && seen.transmittance > 0.0;
   } while (subgroupAny(seeking));
 #else
-  if (next_hit(ray, caster, inside, root)) see_root(seen, ray, root);
+  if (next_hit(ray, caster, mine, root)) see_root(seen, ray, root);
 #endif
-  if (inside) {
-    write_pixel(pixel, seen);
+  if (mine) {
+    write_pixel(pending.pixel, vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance), seen.first);
 #ifdef COST
-    count_cost(pixel, caster.evaluations, caster.walk.steps, caster.walk.intervals);
+    vec3 before = read_cost(pending.pixel);
+    write_cost(pending.pixel, before + vec3(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals)));
 #endif
   }
 }

@@ -1,6 +1,8 @@
 // The walk over the cells that may matter, in the order of the ray.
 #include "skip.glsl"
 
+const int LEVEL_UNKNOWN = -1;
+
 struct Walk {
   ivec3 cell;   // to look at next
   float t;      // where the ray enters it
@@ -12,13 +14,14 @@ struct Walk {
 #endif
 };
 
-Walk begin_walk(Ray ray) {
+// A walk from t on, the structure still to be asked.
+Walk begin_walk(Ray ray, float t, int level) {
   Walk walk;
-  walk.t = ray.begin;
-  walk.cell = cell_at(ray, ray.begin);
-  walk.until = ray.begin;
+  walk.t = t;
+  walk.cell = cell_at(ray, t);
+  walk.until = t;
   walk.matters = false;
-  walk.level = LEVEL_UNKNOWN;
+  walk.level = level;
 #ifdef COST
   walk.steps = 0u;
   walk.intervals = 0u;

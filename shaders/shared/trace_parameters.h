@@ -18,7 +18,7 @@
 //      336  cells                                                         cells per axis; .w: number of isovalues
 //      352  strides                                                       y, z, coset, number of sample (0; 0,0,0)
 //      368  picture                                                       width, height, first row, rows of this dispatch
-//      384  blocks                                                        blocks per axis of the skipping structure; .w unused
+//      384  blocks                                                        blocks per axis of the skipping structure; .w: log2 of their edge
 //      400  bricks                                                        occupancy bricks per axis; .w unused
 #ifdef __cplusplus
 #pragma once

@@ -18,7 +18,7 @@ Volume ball() {
 }
 
 Frame look(const Volume& volume, const Camera& camera, int size, const std::string& structure = "grid", Intersect intersect = Intersect::exact) {
-  DeviceRenderer renderer(test_device(), volume, {});
+  DeviceRenderer renderer(test_kernels(), volume, {});
   Renderer::Request request = request_for(volume, 0.0, size);
   request.scene.camera = camera;
   request.scene.intersect = intersect;
@@ -42,7 +42,7 @@ TEST_F(DeviceRoundingTest, RaysAlongAxesAndInKnotPlanesAndThroughLatticePointsHi
     for (const glm::dvec3& through : {glm::dvec3(16, 16, 16), {15, 15, 15}, {16.5, 16.5, 16.5}, {16, 15.5, 16}}) {
       Camera camera;
       camera.target = through;
-      camera.eye = through - 60.0 * d;
+      camera.eye = through - 60.0 * glm::normalize(d);
       camera.up = std::abs(d.z) > 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
       camera.fov = 6.0;
       SCOPED_TRACE(testing::Message() << "along " << d.x << " " << d.y << " " << d.z << " through " << through.x << " " << through.y << " " << through.z);

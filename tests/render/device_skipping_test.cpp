@@ -41,10 +41,10 @@ class EverySetting : public DeviceTest {
  protected:
   /// Compares every structure, block size and cell test with none, from `views` directions and from inside.
   void compare_all(const Case& c, Intersect intersect, bool several) {
-    DeviceRenderer renderer(test_device(), c.volume, {});
+    DeviceRenderer renderer(test_kernels(), c.volume, {});
     RenderStats stats;
     for (int view = 0; view < 3; ++view) {
-      Renderer::Request request = request_for(c.volume, c.isovalue, 48, 30.0 + 120.0 * view, 75.0 - 60.0 * view);
+      Renderer::Request request = request_for(c.volume, c.isovalue, 32, 30.0 + 120.0 * view, 75.0 - 60.0 * view);
       if (view == 2) {
         request.scene.camera.eye = 0.97 * request.scene.camera.target + 0.03 * request.scene.camera.eye;
         request.scene.camera.fov = 80.0;

@@ -1,0 +1,30 @@
+// The pipelines of a device, by variant: made once, however many renderers use them.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "gpu/gpu.h"
+#include "render/kernel.h"
+
+namespace quincunx {
+
+/// The pipelines of a picture's passes.
+struct Kernels {
+  gpu::Pipeline enter, trace;
+};
+
+class KernelCache {
+ public:
+  explicit KernelCache(std::shared_ptr<gpu::Device> device) : device_(std::move(device)) {}
+
+  gpu::Device& device() const { return *device_; }
+  /// The kernels of `variant`, compiled where they have not been; adds the milliseconds that took to `compile_ms`.
+  const Kernels& kernels(const KernelVariant& variant, double& compile_ms);
+
+ private:
+  std::shared_ptr<gpu::Device> device_;
+  std::map<KernelVariant, Kernels> kernels_;
+};
+
+}  // namespace quincunx

@@ -1,0 +1,26 @@
+#version 460
+// The entering pass: every pixel's ray goes to its first cell that may matter. Rays that have none are done.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+#include "shared/trace_parameters.h"
+#include "ray.glsl"
+#include "walk.glsl"
+#include "picture.glsl"
+#include "rays.glsl"
+
+void main() {
+  ivec2 pixel = lane_pixel();
+  bool inside = in_picture(pixel);
+  Ray ray = make_ray(pixel);
+  Walk walk = begin_walk(ray, ray.begin, LEVEL_UNKNOWN);
+  bool found = find_cell(ray, walk, inside && ray.begin < ray.end);
+  append_ray(found, PendingRay(pixel, walk.t, walk.level));
+  if (inside && !found) write_pixel(pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));
+#ifdef COST
+  // The next pass looks at the cell found again.
+  uint again = found ? 1u : 0u;
+  if (inside) write_cost(pixel, vec3(0.0, float(walk.steps - again), float(walk.intervals - min(again, walk.intervals))));
+#endif
+}

@@ -1,0 +1,28 @@
+// The rays that may meet something: found by the entering pass, traced by the next one, packed so that no subgroup
+// of it works for rays that pass everything by.
+
+struct PendingRay {
+  ivec2 pixel;
+  float t;    // where the ray enters its first cell that may matter
+  int level;  // there
+};
+
+layout(std430, binding = 8) buffer Rays {
+  uint ray_count;
+  uint ray_padding[3];
+  uvec4 ray_list[];  // pixel x + 2^16 y, t, level, 0
+};
+
+// Appends the rays of the subgroup's lanes that have one, in the order of lanes.
+void append_ray(bool have, PendingRay ray) {
+  uvec4 ballot = subgroupBallot(have);
+  uint first = 0u;
+  if (subgroupElect()) first = atomicAdd(ray_count, subgroupBallotBitCount(ballot));
+  uint number = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
+  if (have) ray_list[number] = uvec4(uint(ray.pixel.x) | uint(ray.pixel.y) << 16, floatBitsToUint(ray.t), uint(ray.level), 0u);
+}
+
+PendingRay pending_ray(uint number) {
+  uvec4 r = ray_list[number];
+  return PendingRay(ivec2(r.x & 0xffffu, r.x >> 16), uintBitsToFloat(r.y), int(r.z));
+}
