@@ -9,6 +9,11 @@
 
 #include "bernstein.glsl"
 
+// So close behind a hit (lattice coordinates) a value within rounding of the isovalue, HIT_ROUNDING of what went into it, is taken to be
+// on the level's side: the next piece knows the crossing at a slightly different place.
+const float HIT_BAND = 0.02;
+const float HIT_ROUNDING = 1e-5;
+
 struct Caster {
   Walk walk;
   bool live;         // the ray has not ended
@@ -16,7 +21,7 @@ struct Caster {
   ivec3 cell;
   float entry, len;  // of the current cell: where the ray enters, how long it stays
   float done;        // how far of it has been looked at
-  bool crossed;      // `done` is a hit: the value there is the isovalue, on the side of the level
+  float last_hit;    // where the ray last crossed a surface; before everything until then
 #ifdef COST
   uint evaluations;
 #endif
@@ -31,7 +36,7 @@ Caster begin_caster(Ray ray, Walk walk) {
   caster.entry = ray.begin;
   caster.len = 0.0;
   caster.done = 0.0;
-  caster.crossed = false;
+  caster.last_hit = -1e30;
 #ifdef COST
   caster.evaluations = 0u;
 #endif
@@ -42,16 +47,15 @@ Caster begin_caster(Ray ray, Walk walk) {
 void enter_cell(Ray ray, inout Caster caster, bool wanted) {
   bool found = find_cell(ray, caster.walk, wanted);
   ivec3 cell = caster.walk.cell;
-  float leave = exit_time(ray, cell, cell + 1);
+  float leave = exit_time(ray, cell, 1);
   float entry = caster.walk.t;
   caster.live = caster.live && (!wanted || found);
   caster.cell = wanted ? cell : caster.cell;
   caster.entry = wanted ? entry : caster.entry;
   caster.len = wanted ? max(min(leave, ray.end) - entry, 0.0) : caster.len;
   caster.done = wanted ? 0.0 : caster.done;
-  caster.crossed = caster.crossed && !wanted;
   caster.walk.t = wanted ? leave : caster.walk.t;
-  caster.walk.cell = wanted ? clamp(next_cell(ray, cell, leave), ivec3(0), parameters.cells.xyz - 1) : caster.walk.cell;
+  caster.walk.cell = wanted ? next_cell(ray, cell, leave) : caster.walk.cell;
 }
 
 // Where the piece that begins at `done` ends.
@@ -69,7 +73,12 @@ struct Distances {
 Distances distances(float b[5], float isovalue, bool upwards, bool crossed) {
   float s = upwards ? -1.0 : 1.0;
   Distances h = Distances(s * (b[0] - isovalue), s * (b[1] - isovalue), s * (b[2] - isovalue), s * (b[3] - isovalue), s * (b[4] - isovalue));
+#ifdef COMPOSITE
+  float size = max(max(abs(b[0]), abs(b[4])), max(abs(b[1]), max(abs(b[2]), abs(b[3])))) + abs(scaled_isovalue(0));
+  float rounding = crossed ? HIT_ROUNDING * size : 0.0;
+  h = Distances(h.h0 + rounding, h.h1 + rounding, h.h2 + rounding, h.h3 + rounding, h.h4 + rounding);
   h.h0 = crossed ? max(h.h0, 1e-30) : h.h0;
+#endif
   return h;
 }
 // The isovalue itself belongs to the side above it.
@@ -111,7 +120,8 @@ float piece_root(int level, float b[5], bool crossed, out int surface) {
 }
 #endif
 
-// Where `wanted`, the next hit from where the caster stands; false where there is none.
+// Where `wanted`, the next hit from where the caster stands; false where there is none, or none yet (the caster is live then:
+// call again).
 bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
   bool hit = false;
   bool seeking = wanted && caster.live;
@@ -140,17 +150,17 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
       caster.walk.level = seeking && caster.walk.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.walk.level;
 
       // Keep the piece where a root may be; go on to the next one elsewhere.
-      found = found || (seeking && piece_may_cross(caster.walk.level, piece, caster.crossed));
+      bool behind_hit = caster.entry + caster.done - caster.last_hit < HIT_BAND;
+      found = found || (seeking && piece_may_cross(caster.walk.level, piece, behind_hit));
       for (int i = 0; i < 5; ++i) b[i] = seeking ? piece[i] : b[i];
       start = seeking ? caster.done : start;
       width = seeking ? span : width;
-      crossed = seeking ? caster.crossed : crossed;
+      crossed = seeking ? behind_hit : crossed;
       caster.done = seeking ? end : caster.done;
       caster.need_cell = seeking ? !(caster.len > end + 1e-6) : caster.need_cell;
-      caster.crossed = caster.crossed && !seeking;
       caster.live = caster.live && (!seeking || !caster.need_cell || caster.walk.t < ray.end);
       seeking = seeking && !found && caster.live;
-    } while (subgroupAny(seeking));
+    } while (keep_seeking(seeking, found));
 
     int surface;
     float r = piece_root(caster.walk.level, b, crossed, surface);
@@ -170,7 +180,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
   caster.walk.level += hit ? (caster.walk.level == root.surface ? 1 : -1) : 0;
   caster.done = hit ? reached : caster.done;
   caster.need_cell = caster.need_cell && !hit;
-  caster.crossed = caster.crossed || hit;
+  caster.last_hit = hit ? root.t : caster.last_hit;
   caster.live = caster.live || hit;
 #endif
   return hit;

@@ -40,7 +40,7 @@ float sample_time(Ray ray, float k) {
 void enter_interval(Ray ray, inout Caster caster, bool wanted) {
   bool found = find_cell(ray, caster.walk, wanted);
 #ifdef CELL_TEST
-  float leave = min(exit_time(ray, caster.walk.cell, caster.walk.cell + 1), ray.end);
+  float leave = min(exit_time(ray, caster.walk.cell, 1), ray.end);
 #elif defined(SKIP)
   float leave = min(caster.walk.until, ray.end);
 #else
@@ -114,7 +114,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
     caster.need_interval = on ? t >= caster.leave : caster.need_interval && !seeking;
     caster.live = caster.live && (!on || t < ray.end);
     seeking = on && caster.live;
-  } while (subgroupAny(seeking));
+  } while (keep_seeking(seeking, hit));
 
   float isovalue = scaled_isovalue(surface);
   uint evaluations = 0u;

@@ -9,6 +9,8 @@ struct Ray {
   vec3 o, d, inverse;   // 1/d, finite
   vec3 o_lo, d_lo;      // what o and d lack
   vec3 centre;          // of the domain
+  ivec3 ahead;          // the way to the next cell, +1 or -1 along each axis
+  ivec3 far;            // from a cell to its plane on that way, 1 or 0
   float begin, end;     // inside the domain, before the eye nothing
   TwoFloat depth;       // world distance from the eye at t = 0
   TwoFloat world_step;  // world distance per t
@@ -62,6 +64,8 @@ Ray make_ray(ivec2 pixel) {
   vec3 centre = 0.5 * vec3(parameters.cells.xyz);
   step_off_planes(ray, centre);
   ray.inverse = 1.0 / ray.d;
+  ray.far = mix(ivec3(0), ivec3(1), greaterThan(ray.d, vec3(0.0)));
+  ray.ahead = 2 * ray.far - 1;
   ray.centre = centre;
   vec3 t_low = (-centre - ray.o) * ray.inverse;
   vec3 t_high = (centre - ray.o) * ray.inverse;
@@ -79,28 +83,23 @@ vec3 plane_times(Ray ray, ivec3 k) {
   return t;
 }
 
-// Where the ray leaves the box of cells [low, high).
-float exit_time(Ray ray, ivec3 low, ivec3 high) {
-  vec3 t = plane_times(ray, mix(low, high, greaterThan(ray.d, vec3(0.0))));
+// Where the ray leaves the cube of cells low .. low + size - 1.
+float exit_time(Ray ray, ivec3 low, int size) {
+  vec3 t = plane_times(ray, low + size * ray.far);
   return min(t.x, min(t.y, t.z));
 }
 
 // The cell at t: for each axis the last cell whose near plane has been crossed by t.
 ivec3 cell_at(Ray ray, float t) {
-  bvec3 up = greaterThan(ray.d, vec3(0.0));
-  ivec3 ahead = mix(ivec3(-1), ivec3(1), up);
-  ivec3 near_plane = mix(ivec3(1), ivec3(0), up);
-  ivec3 c = clamp(ivec3(floor((ray.o + t * ray.d) + ray.centre)), ivec3(0), parameters.cells.xyz - 1);
-  // The estimate is at most one cell off.
-  c += mix(ivec3(0), ahead, lessThanEqual(plane_times(ray, c + ahead + near_plane), vec3(t)));
-  c -= mix(ivec3(0), ahead, greaterThan(plane_times(ray, c + near_plane), vec3(t)));
-  return clamp(c, ivec3(0), parameters.cells.xyz - 1);
+  // Rounding moves the point by far less than the 1/64 by which it is held back: the cell found is the one or the one before.
+  vec3 u = ((ray.o + t * ray.d) + ray.centre) - vec3(ray.ahead) * 0.015625;
+  ivec3 c = clamp(ivec3(floor(u)), ivec3(0), parameters.cells.xyz - 1);
+  bvec3 crossed = lessThanEqual(plane_times(ray, c + ray.far), vec3(t));
+  return clamp(c + mix(ivec3(0), ray.ahead, crossed), ivec3(0), parameters.cells.xyz - 1);
 }
 
 // The cell after c, which the ray leaves at t.
 ivec3 next_cell(Ray ray, ivec3 c, float t) {
-  bvec3 up = greaterThan(ray.d, vec3(0.0));
-  ivec3 ahead = mix(ivec3(-1), ivec3(1), up);
-  vec3 leave = plane_times(ray, c + mix(ivec3(0), ivec3(1), up));
-  return c + mix(ivec3(0), ahead, lessThanEqual(leave, vec3(t)));
+  bvec3 crossed = lessThanEqual(plane_times(ray, c + ray.far), vec3(t));
+  return clamp(c + mix(ivec3(0), ray.ahead, crossed), ivec3(0), parameters.cells.xyz - 1);
 }

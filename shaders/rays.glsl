@@ -13,6 +13,16 @@ layout(std430, binding = 8) buffer Rays {
   uvec4 ray_list[];  // pixel x + 2^16 y, t, level, 0
 };
 
+// Whether a subgroup's loop goes on: as long as a lane seeks, or, where lanes that found something have more to seek
+// behind it, as long as more lanes seek than wait.
+bool keep_seeking(bool seeking, bool waiting) {
+#ifdef COMPOSITE
+  return subgroupBallotBitCount(subgroupBallot(seeking)) > subgroupBallotBitCount(subgroupBallot(waiting));
+#else
+  return subgroupAny(seeking);
+#endif
+}
+
 // Appends the rays of the subgroup's lanes that have one, in the order of lanes.
 void append_ray(bool have, PendingRay ray) {
   uvec4 ballot = subgroupBallot(have);

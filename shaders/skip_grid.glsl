@@ -7,8 +7,7 @@ bool skip_probe(Ray ray, ivec3 cell, float t, inout int level, out float until) 
   int shift = parameters.blocks.w;
   ivec3 block = cell >> shift;
   uint found = texelFetch(gridLevel, (block.z * parameters.blocks.y + block.y) * parameters.blocks.x + block.x).r;
-  ivec3 low = block << shift;
-  until = exit_time(ray, low, min(low + (1 << shift), parameters.cells.xyz));
+  until = exit_time(ray, block << shift, 1 << shift);
   bool matters = found == GRID_ACTIVE;
   level = matters ? level : int(found);
   return matters;

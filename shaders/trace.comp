@@ -30,7 +30,7 @@ void main() {
   do {
     bool hit = next_hit(ray, caster, seeking, root);
     if (hit) see_root(seen, ray, root);
-    seeking = hit && seen.transmittance > 0.0;
+    seeking = seeking && caster.live && seen.transmittance > 0.0;
   } while (subgroupAny(seeking));
 #else
   if (next_hit(ray, caster, mine, root)) see_root(seen, ray, root);

@@ -71,7 +71,7 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
     found = found || (seeking && walk.matters && occupied(brick, walk.cell));
     bool whole_brick = (brick.x | brick.y) == 0u;
     ivec3 low = whole_brick ? walk.cell & ~3 : walk.cell;
-    float leave = exit_time(ray, low, min(low + (whole_brick ? 4 : 1), parameters.cells.xyz));
+    float leave = exit_time(ray, low, whole_brick ? 4 : 1);
     leave = walk.matters ? min(leave, walk.until) : walk.until;
 #else
     found = found || (seeking && walk.matters);
