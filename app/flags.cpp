@@ -55,6 +55,37 @@ CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& valu
       ->expected(1);
 }
 
+CLI::Option* add_size(CLI::App& app, int& width, int& height) {
+  const auto parse = [&width, &height](const std::vector<std::string>& texts) {
+    constexpr int most = 16384;
+    width = int(parse_integer(texts[0], "--size", 1, most));
+    height = int(parse_integer(texts[1], "--size", 1, most));
+  };
+  return app.add_option_function<std::vector<std::string>>("--size", parse, "Pixels")
+      ->type_name("W H")
+      ->type_size(2)
+      ->expected(1)
+      ->default_str(fmt::format("{} {}", width, height));
+}
+
+CLI::Option* add_block(CLI::App& app, int& block) {
+  const auto parse = [&block](const std::string& text) {
+    const std::int64_t n = parse_integer(text, "--block", 1, 256);
+    if ((n & (n - 1)) != 0) {
+      throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to 256", text));
+    }
+    block = int(n);
+  };
+  return add_parsed(app, "--block", parse, "N", fmt::format("{}", block),
+                    "Edge of the structure's blocks in cells, a power of two");
+}
+
+CLI::Option* add_device(CLI::App& app, std::string& device) {
+  return app
+      .add_option("--device", device, "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
+      ->type_name("D");
+}
+
 CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string& value,
                              const std::vector<std::string>& choices, const std::string& help) {
   const auto parse = [&value, flag, choices](const std::string& text) {

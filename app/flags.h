@@ -30,6 +30,15 @@ CLI::Option* add_integer(CLI::App& app, const std::string& flag, int& value, int
 /// A flag of three finite numbers, "--flag x y z".
 CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& value, const std::string& help);
 
+/// "--size W H", pixels.
+CLI::Option* add_size(CLI::App& app, int& width, int& height);
+
+/// "--block N": the edge of a structure's blocks in cells, a power of two from 1 to 256.
+CLI::Option* add_block(CLI::App& app, int& block);
+
+/// "--device D".
+CLI::Option* add_device(CLI::App& app, std::string& device);
+
 /// A flag whose value is one of `choices`, shown in --help.
 CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string& value,
                              const std::vector<std::string>& choices, const std::string& help);

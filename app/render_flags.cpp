@@ -75,17 +75,7 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
       ->type_name("OUT")
       ->allow_extra_args(false)
       ->group(group);
-  const auto size = [&flags](const Texts& texts) {
-    constexpr int most = 16384;
-    flags.scene.width = int(parse_integer(texts[0], "--size", 1, most));
-    flags.scene.height = int(parse_integer(texts[1], "--size", 1, most));
-  };
-  app.add_option_function<Texts>("--size", size, "Pixels")
-      ->type_name("W H")
-      ->type_size(2)
-      ->expected(1)
-      ->default_str(fmt::format("{} {}", flags.scene.width, flags.scene.height))
-      ->group(group);
+  add_size(app, flags.scene.width, flags.scene.height)->group(group);
   app.add_flag("--cost", flags.scene.cost,
                "Also the cost channels in .exr: evaluations, steps, intervals of each pixel")
       ->group(group);
@@ -114,22 +104,10 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   const Texts structures(structure_names().begin(), structure_names().end());
   add_choice_name(app, "--skip", flags.skip.structure, structures, "How empty space is skipped; changes no pixel")
       ->group(group);
-  const auto block = [&flags](const std::string& text) {
-    const std::int64_t n = parse_integer(text, "--block", 1, 256);
-    if ((n & (n - 1)) != 0) {
-      throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to 256", text));
-    }
-    flags.skip.block = int(n);
-  };
-  add_parsed(app, "--block", block, "N", fmt::format("{}", flags.skip.block),
-             "Edge of the structure's blocks in cells, a power of two")
-      ->group(group);
+  add_block(app, flags.skip.block)->group(group);
   add_choice(app, "--cell-test", flags.skip.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")
       ->group(group);
-  app.add_option("--device", flags.device,
-                 "Index or part of a name of `quincunx devices`, or cpu; else the best there is")
-      ->type_name("D")
-      ->group(group);
+  add_device(app, flags.device)->group(group);
   add_integer(app, "--repeat", flags.repeat, 1, 100000,
               "Frames to trace and time; where several, one more before them warms up")
       ->group(group);
