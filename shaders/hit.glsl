@@ -1,4 +1,5 @@
 // From a root along the ray to a hit: its depth and its normal, as exact as a float can hold.
+#include "exact_ray.glsl"
 
 struct Root {
   ivec3 cell;
@@ -6,19 +7,6 @@ struct Root {
   float t;
   int surface;
 };
-
-// o + t d of the ray without the rounding of floats, u of the cell.
-vec3 exact_cell_point(Ray ray, SplineCell cell, float t) {
-  TwoVec3 along = two_product(ray.d, vec3(t));
-  along.lo += ray.d_lo * t;
-  TwoVec3 p = add(add(TwoVec3(ray.o, ray.o_lo), along), TwoVec3(-cell.even, vec3(0.0)));
-  return cell.sign * (p.hi + p.lo);
-}
-
-float world_depth(Ray ray, float t, float t_lo) {
-  TwoFloat along = multiply(two_sum(t, t_lo), ray.world_step);
-  return add(ray.depth, along).hi;
-}
 
 #ifdef NORMAL_CENTRAL
 // Central differences of the spline, half-step `delta` along each lattice axis, inside the domain.
@@ -43,14 +31,14 @@ const float LONGEST_REFINEMENT = 0.0;
 #else
 const float LONGEST_REFINEMENT = 0.02;
 #endif
-void see_root(inout Seen seen, Ray ray, Root root) {
+void see_root(inout Seen seen, Ray ray, ExactRay exact, Root root) {
   SplineCell cell = spline_cell(root.cell, ray.centre);
   float t_lo;
   vec3 gradient;
-  spline_refine(cell, root.order, exact_cell_point(ray, cell, root.t), ray.d, scaled_isovalue(root.surface),
+  spline_refine(cell, root.order, exact_cell_point(exact, cell, root.t), ray.d, scaled_isovalue(root.surface),
                 LONGEST_REFINEMENT, t_lo, gradient);
 #ifdef NORMAL_CENTRAL
   gradient = central_gradient(ray, root.t + t_lo);
 #endif
-  see(seen, ray, root.surface, gradient, world_depth(ray, root.t, t_lo));
+  see(seen, ray, root.surface, gradient, world_depth(exact, root.t, t_lo));
 }

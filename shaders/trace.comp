@@ -24,16 +24,17 @@ void main() {
   Ray ray = make_ray(pending.pixel);
   Caster caster = begin_caster(ray, begin_walk(ray, pending.t, pending.level));
   Seen seen = nothing_seen();
+  ExactRay exact = make_exact_ray(pending.pixel);
   Root root;
 #ifdef COMPOSITE
   bool seeking = mine;
   do {
     bool hit = next_hit(ray, caster, seeking, root);
-    if (hit) see_root(seen, ray, root);
+    if (hit) see_root(seen, ray, exact, root);
     seeking = seeking && caster.live && seen.transmittance > 0.0;
   } while (subgroupAny(seeking));
 #else
-  if (next_hit(ray, caster, mine, root)) see_root(seen, ray, root);
+  if (next_hit(ray, caster, mine, root)) see_root(seen, ray, exact, root);
 #endif
   if (mine) {
     write_pixel(pending.pixel, vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance), seen.first);
