@@ -1,0 +1,10 @@
+// quincunx-bench: error against time.
+#include "app/program.h"
+#include "bench/intersect.h"
+
+int main(int argc, char** argv) {
+  using namespace quincunx;
+  return run_program({"quincunx-bench", "Error against time: what each way of rendering costs, and what it gets wrong.",
+                      QUINCUNX_VERSION},
+                     {intersect_command}, argc, argv);
+}
