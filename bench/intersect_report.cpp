@@ -69,10 +69,11 @@ Table intersect_table(const IntersectReport& report) {
 }
 
 std::string intersect_caption(const IntersectReport& report) {
-  std::string text =
-      fmt::format("{}, isovalue {}, {} x {}, {} views, {} frames of each in turns, blocks of {} cells; {}.",
-                  std::filesystem::path(report.volume).filename().string(), report.isovalue, report.width,
-                  report.height, report.views, report.rounds, report.block, machine_text(report.machine));
+  const auto count = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  std::string text = fmt::format("{}, isovalue {}, {} x {}, {}, {} of each setting in turns, blocks of {} cells; {}.",
+                                 std::filesystem::path(report.volume).filename().string(), report.isovalue,
+                                 report.width, report.height, count(report.views, "view"),
+                                 count(report.rounds, "timed frame"), report.block, machine_text(report.machine));
   if (!report.errors.empty()) {
     text +=
         fmt::format(" The reference hits {} of {} rays.", report.errors.front().expected, report.costs.front().rays);
