@@ -14,7 +14,7 @@ float first_root(float b0, float b1, float b2, float b3, float b4) {
   bool done = false;
   float root = -1.0;
   int changes = 4;
-  for (int i = 0; i < 24 && !done && changes > 1; ++i) {
+  for (int i = 0; i < 48 && !done && changes > 1; ++i) {
     bool none = min(min(b1, b2), min(b3, b4)) > 0.0;
     changes = int(b1 <= 0.0) + int((b1 > 0.0) != (b2 > 0.0)) + int((b2 > 0.0) != (b3 > 0.0)) + int((b3 > 0.0) != (b4 > 0.0));
     done = none;
@@ -30,14 +30,15 @@ float first_root(float b0, float b1, float b2, float b3, float b4) {
       b0 = y * b0 + x * b1;
       base += width * x;
       width *= y;
-      // Within rounding of a root: decided there.
-      if (b0 <= 0.0 || width < 1e-7) {
-        root = base;
-        done = true;
-      }
+      // Within rounding of a root: decided there. (b0 itself may never reach 0.)
+      bool converged = x < 1e-6 && b1 <= 0.0;
+      root = b0 <= 0.0 || converged || width < 1e-7 ? base : root;
+      done = root >= 0.0;
     }
   }
-  if (done || b4 > 0.0) return root;
+  // Still undecided: a tangency that 48 clips do not part.
+  if (!done && changes > 1) root = base;
+  if (done || changes > 1 || b4 > 0.0) return root;
 
   // One change of sign: bracketed Newton on the monomial form.
   float a1 = 4.0 * (b1 - b0);

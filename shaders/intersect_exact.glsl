@@ -77,7 +77,8 @@ Distances distances(float b[5], float isovalue, bool upwards, bool crossed) {
   float size = max(max(abs(b[0]), abs(b[4])), max(abs(b[1]), max(abs(b[2]), abs(b[3])))) + abs(scaled_isovalue(0));
   float rounding = crossed ? HIT_ROUNDING * size : 0.0;
   h = Distances(h.h0 + rounding, h.h1 + rounding, h.h2 + rounding, h.h3 + rounding, h.h4 + rounding);
-  h.h0 = crossed ? max(h.h0, 1e-30) : h.h0;
+  // The root at 0 is known; behind it the polynomial leaves 0 as h1 says.
+  h.h0 = crossed ? max(h.h0, max(1e-3 * h.h1, 1e-30)) : h.h0;
 #endif
   return h;
 }
