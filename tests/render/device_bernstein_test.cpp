@@ -72,7 +72,7 @@ void expect_right(const std::vector<Quartic>& quartics) {
 TEST_F(DeviceBernsteinTest, FindsTheFirstRootOfRandomQuartics) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
-  std::vector<Quartic> quartics(20000);
+  std::vector<Quartic> quartics(6000);
   for (Quartic& b : quartics) {
     for (float& c : b) c = normal(random);
     b[0] = std::abs(b[0]) + 1e-3f;
@@ -84,7 +84,7 @@ TEST_F(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
   // (x - r)^2 - e, between steep walls or gentle ones, the far end positive: two roots close together.
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform;
-  std::vector<Quartic> quartics(20000);
+  std::vector<Quartic> quartics(6000);
   for (Quartic& b : quartics) {
     const double r = 0.1 + 0.8 * uniform(random), e = std::pow(10.0, -6.0 * uniform(random)) * 0.01, tilt = 0.9 * uniform(random);
     // Quadratic Bernstein coefficients, raised to degree 4 and tilted by the positive factor (1 - tilt x)^2.
