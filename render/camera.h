@@ -13,7 +13,7 @@ namespace quincunx {
 /// With f = unit(target-eye), r = unit(f x up), v = r x f, pixel (i,j) of W x H, j = 0 at the top, looks along
 /// unit(f + r (2(i+.5)/W - 1) tan(fov/2) W/H + v (1 - 2(j+.5)/H) tan(fov/2)).
 struct Camera {
-  glm::dvec3 eye{0.0, 0.0, 1.0}, target{0.0}, up{0.0, 1.0, 0.0};
+  glm::dvec3 eye{0.0, -1.0, 0.0}, target{0.0}, up{0.0, 0.0, 1.0};
   double fov = 30.0;
 };
 

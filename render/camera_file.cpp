@@ -18,8 +18,10 @@ using Json = nlohmann::json;
 
 std::string read_text(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw InputError(fmt::format("{}: a folder; expected a camera file (JSON)", path));
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError(fmt::format("{}: {}; expected a camera file (JSON)", path,
+                                 std::filesystem::is_directory(status) ? "a folder" : "a special file"));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("{}: cannot be opened; expected a camera file (JSON)", path));
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

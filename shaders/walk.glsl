@@ -61,7 +61,7 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
     bool matters = skip_probe(ray, walk.cell, walk.t, level, until);
     walk.matters = ask ? matters : walk.matters;
     walk.until = ask ? until : walk.until;
-    walk.level = ask ? level : walk.level;
+    walk.level = ask && walk.level == LEVEL_UNKNOWN ? level : walk.level;
 #ifdef COST
     walk.intervals += ask && matters ? 1u : 0u;
     walk.steps += seeking ? 1u : 0u;

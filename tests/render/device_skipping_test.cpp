@@ -50,6 +50,7 @@ class EverySetting : public DeviceTest {
         request.scene.camera.fov = 80.0;
       }
       request.scene.intersect = intersect;
+      request.scene.step = 0.7;
       if (several) request.scene.isosurfaces = {{c.isovalue, {1, 0, 0}, 0.5}, {0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5}};
       request.skip.structure = "none";
       const Frame truth = renderer.render(request, stats);
@@ -73,6 +74,13 @@ TEST_F(EverySetting, ShowsTheFirstRootsThatNoneShows) {
 
 TEST_F(EverySetting, ShowsTheSurfacesBehindEachOtherThatNoneShows) {
   for (const Case& c : adversarial_volumes()) compare_all(c, Intersect::exact, true);
+}
+
+TEST_F(EverySetting, ShowsTheMarchedLayersThatNoneShowsEvenWhereSamplesMissOne) {
+  // Layers thinner than a step: what a skipped block knows of them must not reach the samples.
+  const auto layers = [](const glm::dvec3& u) { return std::sin(2.2 * u.x) + 0.5 * std::sin(1.7 * u.y + 0.9 * u.z); };
+  compare_all({"layers", bcc_volume({12, 12, 12}, layers), 0.5}, Intersect::march, true);
+  compare_all({"noise", random_volume({12, 12, 12}, 9), 0.7}, Intersect::march, true);
 }
 
 TEST_F(EverySetting, ShowsTheMarchedSamplesThatNoneShows) {
