@@ -28,7 +28,7 @@ class SlowingRenderer final : public Renderer {
 class TurnsTest : public testing::Test {
  protected:
   TurnsTest() {
-    const std::vector<double> steps{0.25};
+    const std::vector<double> steps{0.5, 0.25};
     plan.settings = intersect_settings(steps);
     plan.views.resize(2);
     plan.views[1].scene.width = 7;
@@ -65,6 +65,9 @@ TEST_F(TurnsTest, TakeEverySettingOnceFromAViewBeforeAnyASecondTime) {
         const Renderer::Request& request = renderer.requests[n++];
         EXPECT_EQ(request.scene.intersect, setting.intersect);
         EXPECT_EQ(request.skip.structure, setting.structure);
+        if (setting.intersect == Intersect::march) {
+          EXPECT_EQ(request.scene.step, setting.step);
+        }
         EXPECT_EQ(request.scene.width, view.scene.width);
       }
     }
