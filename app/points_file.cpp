@@ -31,9 +31,12 @@ bool is_header(std::string_view line) {
 }  // namespace
 
 PointsFile::PointsFile(const std::string& path) : path_(path) {
+  // A pipe has nothing left when the points are read for the second time, and may keep its reader waiting.
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(fmt::format("{}: found a folder, expected a CSV file of points", path));
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw InputError(fmt::format("{}: found {}, expected a regular file (CSV) of points", path,
+                                 std::filesystem::is_directory(status) ? "a folder" : "a special file"));
   }
   file_.open(path);
   if (!file_) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));

@@ -14,7 +14,7 @@ namespace quincunx {
 /// blank lines and the line ends of Windows are allowed. Only one line is held at a time.
 class PointsFile {
  public:
-  /// Throws InputError where the file cannot be opened.
+  /// Throws InputError where the file cannot be opened or is no regular file (a pipe could not be read twice).
   explicit PointsFile(const std::string& path);
 
   /// The next point, or nothing at the end. Throws InputError naming file and line for any other line.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "lattice/error.h"
 #include "program.h"
@@ -33,6 +34,16 @@ TEST(PointsFile, NamesFileAndLineOfWhatIsNoPoint) {
       EXPECT_THAT(error.what(), testing::HasSubstr("p.csv:3: found '")) << bad;
     }
   }
+}
+
+// It is read twice: a pipe would be empty, or hang, the second time.
+TEST(PointsFile, RefusesAPipeAndAFolder) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const Outcome pipe = run({"eval", folder / "none.nrrd", "--points", folder / "pipe"});
+  EXPECT_EQ(pipe.status, 2);
+  EXPECT_THAT(pipe.err, testing::HasSubstr("pipe: found a special file, expected a regular file"));
+  EXPECT_THROW(PointsFile(folder / "."), InputError);
 }
 
 }  // namespace
