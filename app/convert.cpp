@@ -38,7 +38,7 @@ void convert(const ConvertFlags& flags) {
     throw InputError(fmt::format("{}: found a {} volume already, expected one of the other lattice for --lattice {}",
                                  flags.in, lattice_name(target), lattice_name(target)));
   }
-  Volume converted = target == LatticeKind::bcc ? bcc_subset(volume) : cartesian_subset(volume);
+  Volume converted = target == LatticeKind::bcc ? bcc_subset(volume, flags.in) : cartesian_subset(volume);
   add_history(converted, target == LatticeKind::bcc ? "the even and the odd points of a Cartesian volume"
                                                     : "the even coset of a BCC volume");
   write_volume(converted, flags.out, flags.encoding, bar.stage("writing"));

@@ -24,17 +24,17 @@ void append_every_second(const std::vector<T>& from, const Extents& size, int fi
 
 }  // namespace
 
-Volume bcc_subset(const Volume& cartesian) {
+Volume bcc_subset(const Volume& cartesian, std::string_view what) {
   if (cartesian.lattice != LatticeKind::cartesian) {
     throw InputError(
-        fmt::format("volume: lattice {}, expected cartesian to take a BCC subset of", lattice_name(cartesian.lattice)));
+        fmt::format("{}: lattice {}, expected cartesian to take a BCC subset of", what, lattice_name(cartesian.lattice)));
   }
-  check_volume(cartesian, "volume");
+  check_volume(cartesian, what);
   const Extents& size = cartesian.extents;
   if (size.x < 2 || size.y < 2 || size.z < 2) {
     throw InputError(
-        fmt::format("volume: {} x {} x {} samples, expected at least 2 on every axis to take a BCC subset of", size.x,
-                    size.y, size.z));
+        fmt::format("{}: {} x {} x {} samples, expected at least 2 on every axis to take a BCC subset of", what,
+                    size.x, size.y, size.z));
   }
 
   // A BCC point u stands at the Cartesian index u, so the world stays as it is.

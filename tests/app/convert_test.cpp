@@ -77,5 +77,15 @@ TEST(Convert, RefusesAVolumeThatIsOnTheLatticeAlready) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"in.nrrd"});
 }
 
+TEST(Convert, NamesTheFileThatIsTooThinForASubset) {
+  const TemporaryFolder folder;
+  Volume thin = make_volume(LatticeKind::cartesian, {1, 4, 4}, {}, [](const glm::dvec3& x) { return x.y; });
+  write_volume(thin, folder / "thin.nrrd");
+  const Outcome outcome = run({"convert", folder / "thin.nrrd", folder / "out.nrrd", "--lattice", "bcc"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("thin.nrrd: 1 x 4 x 4 samples"), HasSubstr("at least 2")));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"thin.nrrd"});
+}
+
 }  // namespace
 }  // namespace quincunx::test
