@@ -46,6 +46,9 @@ class DeviceRenderer final : public Renderer {
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
   double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
+  TraceParameters make_parameters(const Scene& scene);
+  /// Runs both kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
+  void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   double trace_band(const Kernels& kernels, const Band& band, int width, int rows);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   std::uint64_t count_evaluations(Request request, const Progress& progress);
