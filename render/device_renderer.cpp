@@ -25,14 +25,6 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
   return std::as_bytes(std::span<const T>(v));
 }
 
-/// The isosurfaces that leave a trace in the picture, by ascending isovalue.
-std::vector<Isosurface> visible_surfaces(const Scene& scene) {
-  std::vector<Isosurface> surfaces = scene.isosurfaces;
-  std::erase_if(surfaces, [](const Isosurface& s) { return s.opacity == 0.0; });
-  std::sort(surfaces.begin(), surfaces.end(), [](const Isosurface& a, const Isosurface& b) { return a.isovalue < b.isovalue; });
-  return surfaces;
-}
-
 gpu::Buffer upload_new(gpu::Device& device, std::span<const std::byte> bytes, gpu::BufferUse use, const std::string& label,
                        VkFormat format = VK_FORMAT_UNDEFINED) {
   gpu::Buffer buffer = gpu::create_buffer(device, bytes.size(), use, label, format);

@@ -16,15 +16,6 @@ namespace {
 
 constexpr int kTile = 16;
 
-/// The isosurfaces that leave a trace in the picture, by ascending isovalue.
-std::vector<Isosurface> visible_surfaces(const Scene& scene) {
-  std::vector<Isosurface> surfaces = scene.isosurfaces;
-  std::erase_if(surfaces, [](const Isosurface& s) { return s.opacity == 0.0; });
-  std::sort(surfaces.begin(), surfaces.end(),
-            [](const Isosurface& a, const Isosurface& b) { return a.isovalue < b.isovalue; });
-  return surfaces;
-}
-
 std::vector<double> isovalues(const std::vector<Isosurface>& surfaces) {
   std::vector<double> values;
   for (const Isosurface& surface : surfaces) values.push_back(surface.isovalue);

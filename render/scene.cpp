@@ -45,6 +45,14 @@ void check_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
 
 }  // namespace
 
+std::vector<Isosurface> visible_surfaces(const Scene& scene) {
+  std::vector<Isosurface> surfaces = scene.isosurfaces;
+  std::erase_if(surfaces, [](const Isosurface& s) { return s.opacity == 0.0; });
+  std::sort(surfaces.begin(), surfaces.end(),
+            [](const Isosurface& a, const Isosurface& b) { return a.isovalue < b.isovalue; });
+  return surfaces;
+}
+
 void check_scene(const Scene& scene) {
   check_isosurfaces(scene.isosurfaces);
   if (scene.width < 1 || scene.height < 1 || scene.width > kMaxSize || scene.height > kMaxSize)

@@ -34,6 +34,9 @@ struct Scene {
   bool cost = false;   ///< also the cost channels
 };
 
+/// The isosurfaces that leave a trace in the picture (opacity above 0), by ascending isovalue.
+std::vector<Isosurface> visible_surfaces(const Scene& scene);
+
 /// Throws InputError naming the flag where a number is out of range or not finite.
 void check_scene(const Scene& scene);
 

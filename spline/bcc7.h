@@ -1,7 +1,7 @@
 // The quartic box spline of seven directions on the BCC lattice.
 //
 // M. Kim, Quartic box-spline reconstruction on the BCC lattice, IEEE Transactions on Visualization and Computer
-// Graphics 19(2), 2013. docs/splines.md has the mathematics and where we depart from the paper.
+// Graphics, 2013. docs/splines.md has the mathematics and where we depart from the paper.
 #pragma once
 
 #include "spline/quartic_tetrahedron.h"
