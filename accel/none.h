@@ -10,9 +10,10 @@ class None final : public SkippingStructure {
  public:
   std::string_view name() const override { return "none"; }
   std::string_view shader() const override { return "skip_none.glsl"; }
-  bool needs_classification() const override { return false; }
-  void build(const Classification&) override {}
+  Needs needs() const override { return Needs::nothing; }
+  void build(const Classification&, const Thresholds&) override {}
   std::vector<StructureBuffer> buffers() const override { return {}; }
+  StructureReport report() const override { return {}; }
 };
 
 }  // namespace quincunx

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,36 +11,72 @@
 #include <vector>
 
 #include "accel/classification.h"
+#include "accel/skip_config.h"
+#include "accel/thresholds.h"
 
 namespace quincunx {
+
+/// Elements of a buffer of a GLSL twin: unsigned integers, by channels and bits.
+enum class TexelFormat { r8, rg16, rg32, rgba32 };
 
 /// What a structure hands to the renderer: bytes for one buffer of its GLSL twin, and the buffer's name there.
 struct StructureBuffer {
   std::string name;
-  std::span<const std::byte> bytes;
+  TexelFormat format = TexelFormat::r8;
+  std::span<const std::byte> bytes;  ///< never empty
+  std::uint64_t version = 0;         ///< another one whenever the bytes have changed
+};
+
+/// What a structure consists of, and what making it took. Milliseconds of the last prepare and build together.
+struct StructureReport {
+  std::uint64_t leaves = 0;  ///< boxes or blocks that may hold a surface, as rays meet them
+  std::uint64_t nodes = 0;   ///< of a tree, leaves included; 0 where there is none
+  int depth = 0;             ///< of a tree: nodes from the root to the deepest leaf
+  double cluster_ms = 0.0;   ///< blocks to larger boxes
+  double build_ms = 0.0;     ///< all else
 };
 
 /// A skipping structure. On the device it answers one question: the next interval of the ray that may hold a
 /// surface (the contract of its GLSL twin is in shaders/skip.glsl).
 class SkippingStructure {
  public:
+  /// What has to be known before it can be built; each includes the ones before.
+  enum class Needs { nothing, bounds, classification };
+
   virtual ~SkippingStructure() = default;
 
   virtual std::string_view name() const = 0;
   /// The GLSL twin, a file of shaders/.
   virtual std::string_view shader() const = 0;
-  /// True where the structure reads a classification (none does not: no bounds are computed for it).
-  virtual bool needs_classification() const = 0;
-  /// Builds from the classification; replaces what was built before.
-  virtual void build(const Classification& classification) = 0;
-  /// The buffers to upload; valid until the next build.
+  virtual Needs needs() const { return Needs::classification; }
+
+  /// Builds what depends on the volume and the block size alone.
+  virtual void prepare(const BlockBounds&) {}
+  /// Builds what depends on the isovalues, after prepare for the same blocks; replaces what was built before.
+  /// `blocks`: which of them may hold a surface; empty where needs() is less than classification.
+  virtual void build(const Classification& blocks, const Thresholds& thresholds) = 0;
+  /// Orders what depends on where rays come from. `eye` in lattice coordinates.
+  virtual void arrange(const glm::dvec3& /*eye*/) {}
+
+  /// The buffers to upload; valid until the next prepare, build or arrange.
   virtual std::vector<StructureBuffer> buffers() const = 0;
+  /// parameters.structure of the GLSL twin; what it means is written there.
+  virtual glm::ivec4 parameters() const { return glm::ivec4(0); }
+  virtual StructureReport report() const = 0;
 };
 
-/// The names make_structure knows.
+/// The names make_structure knows, for SkipConfig::structure.
 const std::vector<std::string_view>& structure_names();
 
-/// The structure of that name; throws InputError naming the choices.
-std::unique_ptr<SkippingStructure> make_structure(std::string_view name);
+/// The structure that `config` names; throws InputError naming the choices.
+std::unique_ptr<SkippingStructure> make_structure(const SkipConfig& config);
+
+/// Every way to skip that can be compared, by label: the names, with the choices that some of them have ("bvh:boxes",
+/// "kdtree:shallow").
+const std::vector<std::string_view>& skip_labels();
+/// The configuration a label stands for, block size and cell test as in `base`; throws InputError naming the choices.
+SkipConfig labelled_skip(std::string_view label, SkipConfig base = {});
+/// The label of a configuration.
+std::string skip_label(const SkipConfig& config);
 
 }  // namespace quincunx

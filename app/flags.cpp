@@ -76,7 +76,7 @@ CLI::Option* add_block(CLI::App& app, int& block) {
     }
     block = int(n);
   };
-  return add_parsed(app, "--block", parse, "N", fmt::format("{}", block),
+  return add_parsed(app, "--block", parse, "N", block == 0 ? "what fits" : fmt::format("{}", block),
                     "Edge of the structure's blocks in cells, a power of two");
 }
 

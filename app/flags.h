@@ -33,7 +33,7 @@ CLI::Option* add_vector(CLI::App& app, const std::string& flag, glm::dvec3& valu
 /// "--size W H", pixels.
 CLI::Option* add_size(CLI::App& app, int& width, int& height);
 
-/// "--block N": the edge of a structure's blocks in cells, a power of two from 1 to 256.
+/// "--block N": the edge of a structure's blocks in cells, a power of two from 1 to 256. 0 beforehand stands for one that fits.
 CLI::Option* add_block(CLI::App& app, int& block);
 
 /// "--device D".

@@ -6,7 +6,6 @@
 #include <array>
 #include <set>
 
-#include "accel/structure.h"
 #include "app/flags.h"
 #include "app/values.h"
 #include "io/atomic_file.h"
@@ -101,11 +100,9 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
          "--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
          "Take the samples themselves as coefficients")
       ->group(group);
-  const Texts structures(structure_names().begin(), structure_names().end());
-  add_choice_name(app, "--skip", flags.skip.structure, structures, "How empty space is skipped; changes no pixel")
-      ->group(group);
-  add_block(app, flags.skip.block)->group(group);
-  add_choice(app, "--cell-test", flags.skip.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")
+  add_skip_flags(app, flags.skip, group);
+  app.add_flag("--stub-sampling", flags.scene.stub_sampling,
+               "Walk the structure to the end of each ray and evaluate nothing: traversal alone")
       ->group(group);
   add_device(app, flags.device)->group(group);
   add_integer(app, "--repeat", flags.repeat, 1, 100000,
@@ -155,6 +152,7 @@ void check_render_flags(const RenderFlags& flags) {
   check_count(flags.colors.size(), flags.isovalues.size(), "--color");
   check_count(flags.opacities.size(), flags.isovalues.size(), "--opacity");
   check_camera_flags(flags.camera);
+  check_skip_flags(flags.skip);
   check_outputs(flags);
 }
 
@@ -186,9 +184,9 @@ std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
 
 Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
   Renderer::Request request{.scene = flags.scene,
-                            .skip = flags.skip,
+                            .skip = flags.skip.config,
                             .repeat = flags.repeat,
-                            .count_evaluations = !flags.stats.empty() || flags.json};
+                            .count_costs = !flags.stats.empty() || flags.json};
   request.scene.isosurfaces = make_isosurfaces(flags);
   request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);
   check_scene(request.scene);

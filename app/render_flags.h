@@ -7,6 +7,7 @@
 
 #include "app/camera_flags.h"
 #include "app/progress_bar.h"
+#include "app/skip_flags.h"
 #include "render/renderer.h"
 
 namespace quincunx {
@@ -20,7 +21,7 @@ struct RenderFlags {
   CameraFlags camera;
   Scene scene;                    ///< all but its surfaces and camera
   bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through
-  SkipConfig skip;
+  SkipFlags skip;
   Renderer::Config config;
   std::string device;
   int repeat = 1;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <span>
 
+#include "app/skip_flags.h"
+
 namespace quincunx {
 namespace {
 
@@ -74,9 +76,11 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   if (scene.intersect == Intersect::march) json["step"] = scene.step;
   json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
   if (scene.normal == Normal::central) json["delta"] = scene.delta;
-  json["structure"] = request.skip.structure;
-  json["block"] = request.skip.block;
-  json["cell_test"] = request.skip.cell_test;
+  json["structure"] = stats.skip.structure;
+  if (stats.skip.structure == "bvh") json["cluster"] = clustering_name(stats.skip.clustering);
+  if (stats.skip.structure == "kdtree") json["kd"] = kd_name(stats.skip.kd);
+  json["block"] = stats.skip.block;
+  json["cell_test"] = stats.skip.cell_test;
   json["camera"] = {{"eye", to_json(scene.camera.eye)},
                     {"target", to_json(scene.camera.target)},
                     {"up", to_json(scene.camera.up)},
@@ -86,14 +90,20 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
     json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
   }
   json["stages_ms"] = {{"read", read_ms},           {"prefilter", stats.prefilter_ms},
-                       {"bounds", stats.bounds_ms}, {"structure", stats.structure_ms},
+                       {"bounds", stats.bounds_ms}, {"classify", stats.classify_ms},
+                       {"cluster", stats.cluster_ms}, {"build", stats.build_ms},
                        {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
   json["rays"] = stats.rays;
   json["hits"] = stats.hits;
   json["evaluations"] = stats.evaluations;
+  json["steps"] = stats.steps;
+  json["intervals"] = stats.intervals;
   json["blocks"] = stats.blocks;
   json["active_blocks"] = stats.active_blocks;
   json["active_cells"] = stats.active_cells;
+  json["leaves"] = stats.leaves;
+  json["nodes"] = stats.nodes;
+  json["depth"] = stats.depth;
   json["device_bytes"] = Json::object();
   for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;
   return json;

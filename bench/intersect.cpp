@@ -23,7 +23,7 @@ struct IntersectFlags {
   std::string volume, folder, json, device;
   double isovalue = 0.0;
   int width = 512, height = 512, views = 3, rounds = 3;
-  int block = SkipConfig{}.block;
+  int block = 16;
   std::vector<double> steps{0.5, 0.25, 0.125};
   bool errors = true, markdown = false;
   Verbosity verbosity = Verbosity::normal;

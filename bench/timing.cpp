@@ -18,7 +18,7 @@ std::vector<Cost> time_in_turns(Renderer& renderer, const TimingPlan& plan, cons
         report(progress, done++ / frames);
         Renderer::Request request = plan.settings[s].applied(plan.views[view]);
         request.repeat = 1;
-        request.count_evaluations = !timed;
+        request.count_costs = !timed;
         RenderStats stats;
         const Frame frame = renderer.render(request, stats);
         Cost& cost = costs[s];

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "lattice/error.h"
-#include "render/stopwatch.h"
+#include "lattice/stopwatch.h"
 
 namespace quincunx {
 namespace {
@@ -17,6 +16,7 @@ constexpr int kTile = 8;                     // pixels of a group's edge
 constexpr int kMaxCoefficientBuffers = 8;    // bindings of coefficients.glsl
 constexpr std::int64_t kBandPixels = 1 << 21;  // of one dispatch at most, so that progress and Ctrl-C come through
 constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
+constexpr std::uint64_t kRayBytes = 8;         // of the list of rays.glsl
 constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
 constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
 
@@ -32,23 +32,17 @@ gpu::Buffer upload_new(gpu::Device& device, std::span<const std::byte> bytes, gp
   return buffer;
 }
 
-void check_block(int block) {
-  if (block < 1 || block > 256 || !std::has_single_bit(unsigned(block)))
-    throw InputError(fmt::format("--block: {}; expected a power of two from 1 to 256", block));
-}
-
 }  // namespace
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
-    : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits), spline_(make_spline(config.spline)), volume_(volume) {
+    : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits),
+      spline_(make_spline(config.spline)), volume_(volume), skipping_(device_) {
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
 }
 
 // ---- what a request needs ----
-
-bool DeviceRenderer::uses_cells(const Request& request) const { return request.skip.structure != "none" && request.skip.cell_test; }
 
 DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
   const glm::i64vec3 p = volume_.extents + std::int64_t(2 * spline_->apron());
@@ -66,26 +60,34 @@ DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
 
 KernelVariant DeviceRenderer::variant(const Request& request) const {
   const std::vector<Isosurface> surfaces = visible_surfaces(request.scene);
-  const std::unique_ptr<SkippingStructure> structure = make_structure(request.skip.structure);
+  const std::unique_ptr<SkippingStructure> structure = make_structure(request.skip);
   const CoefficientLayout layout = coefficient_layout();
   KernelVariant v;
   v.spline_shader = spline_->shader();
   v.structure = structure->name();
   v.structure_shader = structure->shader();
-  v.cell_test = uses_cells(request);
+  v.cell_test = request.skip.cell_test && request.skip.structure != "none";
   v.intersect = request.scene.intersect;
   v.normal = request.scene.normal;
   v.many_isovalues = surfaces.size() > 1;
   v.composite = std::any_of(surfaces.begin(), surfaces.end(), [](const Isosurface& s) { return s.opacity < 1.0; });
-  v.cost = request.scene.cost;
+  v.stub = request.scene.stub_sampling;
+  v.cost = request.scene.cost || v.stub;
   v.coefficient_buffers = layout.buffers;
   v.coefficient_shift = layout.shift;
   return v;
 }
 
 std::vector<Feature> DeviceRenderer::explain(const Request& request) {
+  RenderStats unused;
+  Request completed = request;
+  const SkipChoice choice = complete(request, unused, {});
+  completed.skip = choice.config;
   std::vector<Feature> features;
-  for (const KernelPart& part : kernel_parts(variant(request))) features.push_back(part.feature);
+  for (const KernelPart& part : kernel_parts(variant(completed))) features.push_back(part.feature);
+  const std::string label = completed.skip.structure == "none" ? "none" : fmt::format("{}, blocks of {} cells", skip_label(completed.skip), completed.skip.block);
+  for (Feature& feature : features)
+    if (feature.name == kSkipPart && !choice.why.empty()) feature.why = fmt::format("{}: {}", label, choice.why);
   features.push_back({"prefilter pass", config_.prefilter != Spline::Prefilter::none,
                       config_.prefilter != Spline::Prefilter::none ? "quasi-interpolation of full order" : "--no-prefilter: the samples are the coefficients"});
   return features;
@@ -121,35 +123,16 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
   stats.bounds_ms = watch.ms();
 }
 
-void DeviceRenderer::prepare_structure(const Request& request, const std::vector<double>& isovalues, RenderStats& stats) {
-  const Built wanted{request.skip.structure, request.skip.block, uses_cells(request), isovalues};
-  if (structure_ && built_ == wanted) return;
-
-  const Stopwatch build;
-  structure_ = make_structure(request.skip.structure);
-  Classification classification;
-  CellOccupancy cell_bits;
-  if (structure_->needs_classification()) {
-    if (!blocks_ || blocks_->block != request.skip.block) blocks_ = block_bounds(*cells_, request.skip.block);
-    classification = classify(*blocks_, *cells_, isovalues);
-    structure_->build(classification);
-  }
-  if (wanted.cell_test) cell_bits = occupancy(*cells_, isovalues);
-  stats.structure_ms = build.ms();
-
-  const Stopwatch upload;
-  structure_buffers_.clear();
-  for (const StructureBuffer& buffer : structure_->buffers())
-    structure_buffers_.emplace_back(buffer.name, upload_new(device_, buffer.bytes, gpu::BufferUse::texel, buffer.name, VK_FORMAT_R8_UINT));
-  occupancy_ = wanted.cell_test ? upload_new(device_, bytes_of(cell_bits.words), gpu::BufferUse::texel, "occupancy", VK_FORMAT_R32G32_UINT)
-                                : gpu::Buffer{};
-  stats.upload_ms += upload.ms();
-  block_count_ = classification.level.size();
-  active_blocks_ = classification.active_blocks;
-  active_cells_ = cell_bits.active_cells;
-  block_extents_ = classification.blocks;
-  brick_extents_ = cell_bits.bricks;
-  built_ = wanted;
+SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, const Progress& progress) {
+  prepare_coefficients(stats, progress);
+  prepare_bounds(request, stats, progress);
+  if (request.skip.structure == "none" || !is_open(request.skip)) return {request.skip, ""};
+  const Stopwatch watch;
+  std::vector<double> isovalues;
+  for (const Isosurface& s : visible_surfaces(request.scene)) isovalues.push_back(s.isovalue);
+  const SkipChoice choice = choose_skip(request.skip, *cells_, isovalues, {.cpu = gpu::info(device_).type == "CPU"});
+  stats.classify_ms += watch.ms();
+  return choice;
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
@@ -172,13 +155,13 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   band.color = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "color");
   band.hit = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "hit");
   if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
-  band.rays = gpu::create_buffer(device_, bytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
+  band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * kRayBytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
   return band;
 }
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
-  gpu::Resources all = structure_buffers_;
-  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"occupancy", occupancy_},
+  gpu::Resources all = skipping_.resources();
+  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_},
                          {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
   for (std::size_t i = 0; i < coefficient_buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), coefficient_buffers_[i]);
   // What the variant leaves out is not bound.
@@ -191,8 +174,7 @@ gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Ba
 
 TraceParameters DeviceRenderer::make_parameters(const Scene& scene) {
   TraceParameters p = trace_parameters(scene, *coefficients_);
-  p.blocks = ivec4(glm::ivec3(block_extents_), std::countr_zero(unsigned(built_.block)));
-  p.bricks = ivec4(glm::ivec3(brick_extents_), 0);
+  skipping_.set_parameters(p);
   parameters_ = gpu::create_buffer(device_, sizeof p, gpu::BufferUse::uniform, "parameters");
   return p;
 }
@@ -243,16 +225,18 @@ void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame
     for (int a = 0; a < 3; ++a) frame.cost[3 * (first + i) + a] = pixels[i][a];
 }
 
-std::uint64_t DeviceRenderer::count_evaluations(Request request, const Progress& progress) {
+void DeviceRenderer::count_costs(Request request, RenderStats& stats, const Progress& progress) {
   request.scene.cost = true;
   RenderStats unused;
   const Kernels& counting = kernels_->kernels(variant(request), unused.compile_ms);
   Band band = make_band(request.scene, true);
   Frame frame = empty_frame(request.scene);
   trace(counting, request.scene, band, &frame, progress);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < frame.cost.size(); i += 3) sum += frame.cost[i];
-  return std::uint64_t(sum);
+  double sums[3] = {};
+  for (std::size_t i = 0; i < frame.cost.size(); ++i) sums[i % 3] += frame.cost[i];
+  stats.evaluations = std::uint64_t(sums[0]);
+  stats.steps = std::uint64_t(sums[1]);
+  stats.intervals = std::uint64_t(sums[2]);
 }
 
 Frame DeviceRenderer::empty_frame(const Scene& scene) {
@@ -265,22 +249,25 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
   return frame;
 }
 
-void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
-  std::uint64_t coefficients = 0, structure = 0;
+void DeviceRenderer::describe(const Band& band, const Request& request, RenderStats& stats) const {
+  std::vector<double> isovalues;
+  for (const Isosurface& s : request.scene.isosurfaces) isovalues.push_back(s.isovalue);
+  std::uint64_t coefficients = 0;
   for (const gpu::Buffer& b : coefficient_buffers_) coefficients += b.bytes;
-  for (const auto& [name, b] : structure_buffers_) structure += b.bytes;
   stats.device = gpu::info(device_).name;
-  stats.device_bytes = {{"coefficients", coefficients}, {"structure", structure}, {"occupancy", occupancy_.bytes},
-                        {"frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes},
-                        {"parameters", parameters_.bytes + isosurfaces_.bytes}};
-  stats.blocks = block_count_;
-  stats.active_blocks = active_blocks_;
-  stats.active_cells = active_cells_;
+  stats.device_bytes = {{"coefficients", coefficients}};
+  skipping_.describe(cells_ ? &*cells_ : nullptr, isovalues, stats);
+  stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes);
+  stats.device_bytes.emplace_back("parameters", parameters_.bytes + isosurfaces_.bytes);
+}
+
+glm::dvec3 DeviceRenderer::lattice_eye(const Scene& scene) const {
+  const World& world = coefficients_->world;
+  return glm::inverse(world.axes) * (scene.camera.eye - world.origin);
 }
 
 Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);
-  check_block(request.skip.block);
   Request visible = request;
   visible.scene.isosurfaces = visible_surfaces(request.scene);
   if (visible.scene.isosurfaces.empty()) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
@@ -288,13 +275,12 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   for (const Isosurface& s : visible.scene.isosurfaces) isovalues.push_back(s.isovalue);
 
   stats = RenderStats{};
-  prepare_coefficients(stats, progress);
-  prepare_bounds(visible, stats, progress);
-  prepare_structure(visible, isovalues, stats);
+  visible.skip = complete(visible, stats, progress).config;
+  skipping_.prepare(visible.skip, cells_ ? &*cells_ : nullptr, isovalues, lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);
   const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);
 
-  Band band = make_band(visible.scene, visible.scene.cost);
+  Band band = make_band(visible.scene, visible.scene.cost || visible.scene.stub_sampling);
   Frame frame = empty_frame(visible.scene);
   if (stats.compile_ms > 0.0) {
     const Stopwatch rest;
@@ -304,8 +290,8 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   if (request.repeat > 1) trace(made, visible.scene, band, nullptr, {});  // warm-up
   for (int i = 0; i < request.repeat; ++i)
     stats.trace_ms.push_back(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
-  describe(band, stats);
-  if (request.count_evaluations) stats.evaluations = count_evaluations(visible, progress);
+  describe(band, visible, stats);
+  if (request.count_costs) count_costs(visible, stats, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;
   stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
   if (config_.validation && !gpu::validation_messages(device_).empty())

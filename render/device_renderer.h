@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "accel/classification.h"
-#include "accel/structure.h"
+#include "accel/bounds.h"
+#include "accel/choose_skip.h"
 #include "gpu/gpu.h"
+#include "render/device_skipping.h"
 #include "render/kernel_cache.h"
 #include "render/renderer.h"
 #include "render/trace_frame.h"
@@ -41,7 +42,8 @@ class DeviceRenderer final : public Renderer {
 
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
-  void prepare_structure(const Request& request, const std::vector<double>& isovalues, RenderStats& stats);
+  /// `request` with nothing left open, and why (empty where nothing was).
+  SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
@@ -51,11 +53,11 @@ class DeviceRenderer final : public Renderer {
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   double trace_band(const Kernels& kernels, const Band& band, int width, int rows);
   void read_band(const Band& band, int row, int rows, Frame& frame);
-  std::uint64_t count_evaluations(Request request, const Progress& progress);
+  void count_costs(Request request, RenderStats& stats, const Progress& progress);
   static Frame empty_frame(const Scene& scene);
-  void describe(const Band& band, RenderStats& stats) const;
+  void describe(const Band& band, const Request& request, RenderStats& stats) const;
   CoefficientLayout coefficient_layout() const;
-  bool uses_cells(const Request& request) const;
+  glm::dvec3 lattice_eye(const Scene& scene) const;
 
   std::shared_ptr<KernelCache> kernels_;
   gpu::Device& device_;  ///< that of kernels_
@@ -67,21 +69,8 @@ class DeviceRenderer final : public Renderer {
   std::vector<gpu::Buffer> coefficient_buffers_;
 
   std::optional<CellBounds> cells_;
-  std::optional<BlockBounds> blocks_;
-  /// What the structure on the device was built for.
-  struct Built {
-    std::string structure;
-    int block = 0;
-    bool cell_test = false;
-    std::vector<double> isovalues;
-    bool operator==(const Built&) const = default;
-  };
-  Built built_;
-  std::unique_ptr<SkippingStructure> structure_;
-  std::uint64_t block_count_ = 0, active_blocks_ = 0, active_cells_ = 0;
-  glm::i64vec3 block_extents_{0}, brick_extents_{0};
-  std::vector<std::pair<std::string, gpu::Buffer>> structure_buffers_;
-  gpu::Buffer occupancy_, isosurfaces_, parameters_;
+  DeviceSkipping skipping_;
+  gpu::Buffer isosurfaces_, parameters_;
 };
 
 }  // namespace quincunx

@@ -20,21 +20,22 @@ struct Part {
 bool skips(const KernelVariant& v) { return v.structure != "none"; }
 
 constexpr Part kParts[] = {
-    {"exact intersection", nullptr, "first_root", [](const KernelVariant& v) { return v.intersect == Intersect::exact; },
-     "--intersect exact", "--intersect march"},
-    {"fixed-step march", "MARCH", "refine_root", [](const KernelVariant& v) { return v.intersect == Intersect::march; },
-     "--intersect march", "--intersect exact"},
-    {"central differences", "NORMAL_CENTRAL", "central_gradient", [](const KernelVariant& v) { return v.normal == Normal::central; },
+    {"exact intersection", nullptr, "first_root", [](const KernelVariant& v) { return !v.stub && v.intersect == Intersect::exact; },
+     "--intersect exact", "--intersect march, or nothing is evaluated"},
+    {"fixed-step march", "MARCH", "refine_root", [](const KernelVariant& v) { return !v.stub && v.intersect == Intersect::march; },
+     "--intersect march", "--intersect exact, or nothing is evaluated"},
+    {"central differences", "NORMAL_CENTRAL", "central_gradient", [](const KernelVariant& v) { return !v.stub && v.normal == Normal::central; },
      "--normal central", "--normal analytic: the gradient comes with the polynomial"},
-    {"several isovalues", nullptr, "count_isovalues", [](const KernelVariant& v) { return v.many_isovalues; },
+    {"several isovalues", nullptr, "count_isovalues", [](const KernelVariant& v) { return !v.stub && v.many_isovalues; },
      "more than one isovalue", "one isovalue"},
-    {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return v.composite; },
+    {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return !v.stub && v.composite; },
      "a surface is not opaque", "every surface is opaque: the first hit ends the ray"},
-    {"skipping structure", "SKIP", "skip_probe", skips, "--skip names one", "--skip none: no structure is bound"},
+    {kSkipPart, "SKIP", "skip_probe", skips, "--skip names it", "--skip none: no structure is bound"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
-    {"several coefficient buffers", nullptr, "coefficients1", [](const KernelVariant& v) { return v.coefficient_buffers > 1; },
+    {"traversal alone", nullptr, "traverse", [](const KernelVariant& v) { return v.stub; }, "--stub-sampling", "samples are evaluated"},
+    {"several coefficient buffers", nullptr, "coefficients1", [](const KernelVariant& v) { return !v.stub && v.coefficient_buffers > 1; },
      "the coefficients pass the device's limit for one buffer", "the coefficients fit one buffer"},
 };
 
@@ -42,7 +43,7 @@ constexpr Part kParts[] = {
 
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
   gpu::KernelSource source;
-  source.file = pass == Pass::enter ? "enter.comp" : "trace.comp";
+  source.file = pass == Pass::enter ? "enter.comp" : variant.stub ? "traverse.comp" : "trace.comp";
   for (const Part& part : kParts)
     if (part.define && part.wanted(variant)) source.defines.emplace_back(part.define, "1");
   source.defines.emplace_back("ISOVALUES", variant.many_isovalues ? "2" : "1");

@@ -20,6 +20,7 @@ struct KernelVariant {
   bool many_isovalues = false;  ///< more than one
   bool composite = false;       ///< a surface lets something through
   bool cost = false;            ///< counts evaluations, steps and intervals
+  bool stub = false;            ///< walks the structure and evaluates nothing
   int coefficient_buffers = 1;  ///< 1..8 texel buffers
   int coefficient_shift = 0;    ///< log2 of the elements of each, where there are several
 
@@ -32,6 +33,9 @@ enum class Pass { enter, trace };
 /// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
+
+/// The part that is the skipping structure.
+inline constexpr const char* kSkipPart = "skipping structure";
 
 /// A part of the table, as it stands in the SPIR-V: the name of a function or of a buffer that is there exactly if the
 /// part is compiled into a pass.

@@ -1,6 +1,6 @@
 #include "render/kernel_cache.h"
 
-#include "render/stopwatch.h"
+#include "lattice/stopwatch.h"
 
 namespace quincunx {
 namespace {

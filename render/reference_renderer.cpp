@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/stopwatch.h"
+#include "lattice/error.h"
+#include "lattice/stopwatch.h"
 
 namespace quincunx {
 namespace {
@@ -20,6 +21,8 @@ ReferenceRenderer::ReferenceRenderer(const Volume& volume, const Config& config)
 
 Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);
+  if (request.scene.stub_sampling)
+    throw InputError("--stub-sampling: found --device cpu, expected a Vulkan device: the reference walks no structure");
   stats = RenderStats{};
   stats.device = "cpu (double precision)";
   if (!coefficients_) {
@@ -36,16 +39,19 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   }
 
   Scene scene = request.scene;
-  scene.cost = scene.cost || request.count_evaluations;
+  scene.cost = scene.cost || request.count_costs;
   Frame frame;
   for (int i = 0; i < request.repeat; ++i) {
     const Stopwatch watch;
     frame = render_reference(*spline_, *coefficients_, scene, skips ? &*cells_ : nullptr, progress);
     stats.trace_ms.push_back(watch.ms());
   }
-  double evaluations = 0.0;
-  for (std::size_t i = 0; i < frame.cost.size(); i += 3) evaluations += frame.cost[i];
-  stats.evaluations = std::uint64_t(evaluations);
+  double sums[3] = {};
+  for (std::size_t i = 0; i < frame.cost.size(); ++i) sums[i % 3] += frame.cost[i];
+  stats.evaluations = std::uint64_t(sums[0]);
+  stats.steps = std::uint64_t(sums[1]);
+  stats.intervals = std::uint64_t(sums[2]);
+  stats.skip = request.skip;
   if (!request.scene.cost) frame.cost.clear();
   stats.rays = std::uint64_t(frame.width) * frame.height;
   stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));

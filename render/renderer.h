@@ -7,27 +7,29 @@
 #include <utility>
 #include <vector>
 
+#include "accel/skip_config.h"
 #include "lattice/progress.h"
 #include "render/scene.h"
 #include "spline/spline.h"
 
 namespace quincunx {
 
-/// How empty space is skipped. None of it changes a pixel.
-struct SkipConfig {
-  std::string structure = "grid";  ///< a name of structure_names()
-  int block = 16;                  ///< edge of the structure's blocks in cells, a power of two, 1..256
-  bool cell_test = true;           ///< a last test of single cells inside the intervals (occupancy bits); not for none
-};
-
 /// What one call of Renderer::render cost. Milliseconds; 0 for what did not have to be done (again).
 struct RenderStats {
   std::string device;
-  double prefilter_ms = 0, bounds_ms = 0, structure_ms = 0, upload_ms = 0, compile_ms = 0;
+  SkipConfig skip;  ///< as it was used
+  double prefilter_ms = 0, upload_ms = 0, compile_ms = 0;
+  double bounds_ms = 0;    ///< of cells and blocks, and what a structure makes of them alone: once a volume and block size
+  double classify_ms = 0;  ///< blocks, and cells where they are tested
+  double cluster_ms = 0, build_ms = 0;  ///< of the structure for the isovalues
   std::vector<double> trace_ms;  ///< one entry a frame, timestamp queries where the device has them
   std::vector<std::pair<std::string, std::uint64_t>> device_bytes;  ///< by purpose: coefficients, structure, occupancy, frame
   std::uint64_t blocks = 0, active_blocks = 0, active_cells = 0;
-  std::uint64_t rays = 0, hits = 0, evaluations = 0;  ///< evaluations only where asked for
+  glm::i64vec3 block_extents{0};                  ///< blocks per axis
+  std::uint64_t leaves = 0, nodes = 0;            ///< see StructureReport
+  int depth = 0;
+  std::uint64_t rays = 0, hits = 0;
+  std::uint64_t evaluations = 0, steps = 0, intervals = 0;  ///< of all rays; only where asked for
 };
 
 /// One thing a kernel can contain, whether it does, and why (`--explain`).
@@ -48,7 +50,7 @@ class Renderer {
     Scene scene;
     SkipConfig skip;
     int repeat = 1;                  ///< frames to trace and time, all alike; when more than one, an untimed one warms up before
-    bool count_evaluations = false;  ///< one more, untimed pass that counts
+    bool count_costs = false;  ///< one more, untimed pass that counts evaluations, steps and intervals
   };
 
   virtual ~Renderer() = default;

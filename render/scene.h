@@ -32,6 +32,9 @@ struct Scene {
   Normal normal = Normal::analytic;
   double delta = 0.5;  ///< of Normal::central, in cells
   bool cost = false;   ///< also the cost channels
+  /// Rays only walk the skipping structure, all of it to their end, and evaluate nothing: nothing is hit, and the frame's
+  /// time is that of the traversal. Counts steps and intervals whether `cost` is set or not. Not for the reference caster.
+  bool stub_sampling = false;
 };
 
 /// The isosurfaces that leave a trace in the picture (opacity above 0), by ascending isovalue.

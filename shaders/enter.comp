@@ -14,9 +14,9 @@ void main() {
   ivec2 pixel = lane_pixel();
   bool inside = in_picture(pixel);
   Ray ray = make_ray(pixel);
-  Walk walk = begin_walk(ray, ray.begin, LEVEL_UNKNOWN);
+  Walk walk = begin_walk(ray, ray.begin);
   bool found = find_cell(ray, walk, inside && ray.begin < ray.end);
-  append_ray(found, PendingRay(pixel, walk.t, walk.level));
+  append_ray(found, PendingRay(pixel, walk.t));
   if (inside && !found) write_pixel(pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));
 #ifdef COST
   // The next pass looks at the cell found again.

@@ -16,6 +16,7 @@ const float HIT_ROUNDING = 1e-5;
 
 struct Caster {
   Walk walk;
+  int level;         // of the ray so far; LEVEL_UNKNOWN until a value told
   bool live;         // the ray has not ended
   bool need_cell;    // the current cell is done
   ivec3 cell;
@@ -30,6 +31,7 @@ struct Caster {
 Caster begin_caster(Ray ray, Walk walk) {
   Caster caster;
   caster.walk = walk;
+  caster.level = LEVEL_UNKNOWN;
   caster.live = ray.begin < ray.end;
   caster.need_cell = true;
   caster.cell = caster.walk.cell;
@@ -148,11 +150,11 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
 #ifdef COST
       caster.evaluations += seeking ? 1u : 0u;
 #endif
-      caster.walk.level = seeking && caster.walk.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.walk.level;
+      caster.level = seeking && caster.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.level;
 
       // Keep the piece where a root may be; go on to the next one elsewhere.
       bool behind_hit = caster.entry + caster.done - caster.last_hit < HIT_BAND;
-      found = found || (seeking && piece_may_cross(caster.walk.level, piece, behind_hit));
+      found = found || (seeking && piece_may_cross(caster.level, piece, behind_hit));
       for (int i = 0; i < 5; ++i) b[i] = seeking ? piece[i] : b[i];
       start = seeking ? caster.done : start;
       width = seeking ? span : width;
@@ -164,7 +166,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
     } while (keep_seeking(seeking, found));
 
     int surface;
-    float r = piece_root(caster.walk.level, b, crossed, surface);
+    float r = piece_root(caster.level, b, crossed, surface);
     bool is_root = found && r >= 0.0;
     hit = hit || is_root;
     root.surface = is_root ? surface : root.surface;
@@ -178,7 +180,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
   root.order = axis_order(cell_point(cell, ray.o, ray.d, caster.entry) + (start + 0.5 * width) * (cell.sign * ray.d));
 #ifdef COMPOSITE
   // Go on behind the hit, in the same piece.
-  caster.walk.level += hit ? (caster.walk.level == root.surface ? 1 : -1) : 0;
+  caster.level += hit ? (caster.level == root.surface ? 1 : -1) : 0;
   caster.done = hit ? reached : caster.done;
   caster.need_cell = caster.need_cell && !hit;
   caster.last_hit = hit ? root.t : caster.last_hit;

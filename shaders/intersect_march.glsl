@@ -3,6 +3,7 @@
 
 struct Caster {
   Walk walk;
+  int level;         // of the ray so far; LEVEL_UNKNOWN until a value told
   bool live;
   float leave;     // where the current interval ends
   float k;         // number of the next sample
@@ -18,6 +19,7 @@ struct Caster {
 Caster begin_caster(Ray ray, Walk walk) {
   Caster caster;
   caster.walk = walk;
+  caster.level = LEVEL_UNKNOWN;
   caster.live = ray.begin < ray.end;
   caster.leave = ray.begin;
   caster.k = 0.0;
@@ -97,13 +99,13 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
     caster.evaluations += seeking ? 1u : 0u;
 #endif
     int level = level_of(f + MARCH_OFFSET);
-    caster.walk.level = seeking && !caster.have ? level : caster.walk.level;
-    bool crosses = seeking && caster.have && level != caster.walk.level;
+    caster.level = seeking && !caster.have ? level : caster.level;
+    bool crosses = seeking && caster.have && level != caster.level;
     a = seeking ? caster.previous : a;
     fa = seeking ? caster.before : fa;
     b = seeking ? t : b;
     fb = seeking ? f : fb;
-    surface = crosses ? (level > caster.walk.level ? caster.walk.level : caster.walk.level - 1) : surface;
+    surface = crosses ? (level > caster.level ? caster.level : caster.level - 1) : surface;
     hit = hit || crosses;
     // On to the next sample, unless this one is behind a hit and has to be looked at again.
     bool on = seeking && !crosses;
@@ -129,7 +131,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
   SplineCell cell = spline_cell(root.cell, ray.centre);
   root.order = axis_order(cell_point(cell, ray.o, ray.d, t));
 #ifdef COMPOSITE
-  caster.walk.level += hit ? (caster.walk.level == surface ? 1 : -1) : 0;
+  caster.level += hit ? (caster.level == surface ? 1 : -1) : 0;
   caster.previous = hit ? t : caster.previous;
   caster.before = hit ? isovalue - MARCH_OFFSET : caster.before;
   caster.need_interval = caster.need_interval && !hit;

@@ -2,6 +2,8 @@
 //
 // A place's level is the number of isovalues at or below the value there. Along the ray only two surfaces can be
 // crossed from level L: upwards the isovalue L, downwards the isovalue L - 1.
+const int LEVEL_UNKNOWN = -1;  // before a ray's first value
+
 layout(std430, binding = 2) readonly buffer Isosurfaces {
   vec4 isosurface[];  // 2k: isovalue, opacity; 2k + 1: colour
 };

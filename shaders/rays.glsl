@@ -3,14 +3,13 @@
 
 struct PendingRay {
   ivec2 pixel;
-  float t;    // where the ray enters its first cell that may matter
-  int level;  // there
+  float t;  // where the ray enters its first cell that may matter
 };
 
 layout(std430, binding = 8) buffer Rays {
   uint ray_count;
   uint ray_padding[3];
-  uvec4 ray_list[];  // pixel x + 2^16 y, t, level, 0
+  uvec2 ray_list[];  // pixel x + 2^16 y, t
 };
 
 // Whether a subgroup's loop goes on: as long as a lane seeks, or, where lanes that found something have more to seek
@@ -29,10 +28,10 @@ void append_ray(bool have, PendingRay ray) {
   uint first = 0u;
   if (subgroupElect()) first = atomicAdd(ray_count, subgroupBallotBitCount(ballot));
   uint number = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
-  if (have) ray_list[number] = uvec4(uint(ray.pixel.x) | uint(ray.pixel.y) << 16, floatBitsToUint(ray.t), uint(ray.level), 0u);
+  if (have) ray_list[number] = uvec2(uint(ray.pixel.x) | uint(ray.pixel.y) << 16, floatBitsToUint(ray.t));
 }
 
 PendingRay pending_ray(uint number) {
-  uvec4 r = ray_list[number];
-  return PendingRay(ivec2(r.x & 0xffffu, r.x >> 16), uintBitsToFloat(r.y), int(r.z));
+  uvec2 r = ray_list[number];
+  return PendingRay(ivec2(r.x & 0xffffu, r.x >> 16), uintBitsToFloat(r.y));
 }

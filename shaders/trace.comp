@@ -22,7 +22,7 @@ void main() {
   bool mine = number < ray_count;
   PendingRay pending = pending_ray(mine ? number : 0u);
   Ray ray = make_ray(pending.pixel);
-  Caster caster = begin_caster(ray, begin_walk(ray, pending.t, pending.level));
+  Caster caster = begin_caster(ray, begin_walk(ray, pending.t));
   Seen seen = nothing_seen();
   ExactRay exact = make_exact_ray(pending.pixel);
   Root root;

@@ -1,27 +1,30 @@
 // The walk over the cells that may matter, in the order of the ray.
+#ifdef SKIP
 #include "skip.glsl"
-
-const int LEVEL_UNKNOWN = -1;
+#endif
 
 struct Walk {
-  ivec3 cell;   // to look at next
-  float t;      // where the ray enters it
-  float until;  // how far the structure's last answer reaches
-  bool matters;  // that answer
-  int level;    // of the ray so far; LEVEL_UNKNOWN until something told
+  ivec3 cell;  // to look at next
+  float t;     // where the ray enters it
+#ifdef SKIP
+  SkipState skip;
+  float from, until;  // the structure's last answer
+#endif
 #ifdef COST
   uint steps, intervals;
 #endif
 };
 
 // A walk from t on, the structure still to be asked.
-Walk begin_walk(Ray ray, float t, int level) {
+Walk begin_walk(Ray ray, float t) {
   Walk walk;
   walk.t = t;
   walk.cell = cell_at(ray, t);
+#ifdef SKIP
+  walk.skip = begin_skip();
+  walk.from = t;
   walk.until = t;
-  walk.matters = false;
-  walk.level = level;
+#endif
 #ifdef COST
   walk.steps = 0u;
   walk.intervals = 0u;
@@ -55,33 +58,33 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
   bool found = false;
   bool seeking = wanted && walk.t < ray.end;
   do {
-    int level = walk.level;
-    float until;
-    bool ask = seeking && walk.t >= walk.until;
-    bool matters = skip_probe(ray, walk.cell, walk.t, level, until);
-    walk.matters = ask ? matters : walk.matters;
-    walk.until = ask ? until : walk.until;
-    walk.level = ask && walk.level == LEVEL_UNKNOWN ? level : walk.level;
+    bool asked = seeking && walk.t >= walk.until;
+    float from, until;
+    bool told = skip_step(ray, walk.cell, walk.t, asked, walk.skip, from, until);
+    walk.from = told ? from : walk.from;
+    walk.until = told ? until : walk.until;
+    bool answered = told || (seeking && !asked);
+    bool matters = answered && walk.t >= walk.from && walk.t < walk.until;
 #ifdef COST
-    walk.intervals += ask && matters ? 1u : 0u;
+    walk.intervals += told && from < until ? 1u : 0u;
     walk.steps += seeking ? 1u : 0u;
 #endif
 #ifdef CELL_TEST
     uvec2 brick = occupancy_brick(walk.cell);
-    found = found || (seeking && walk.matters && occupied(brick, walk.cell));
+    found = found || (matters && occupied(brick, walk.cell));
     bool whole_brick = (brick.x | brick.y) == 0u;
     ivec3 low = whole_brick ? walk.cell & ~3 : walk.cell;
     float leave = exit_time(ray, low, whole_brick ? 4 : 1);
-    leave = walk.matters ? min(leave, walk.until) : walk.until;
+    leave = matters ? min(leave, walk.until) : walk.from;
 #else
-    found = found || (seeking && walk.matters);
-    float leave = walk.until;
+    found = found || matters;
+    float leave = walk.from;
 #endif
-    bool step = seeking && !found;
+    bool move = answered && !found;
     ivec3 next = cell_at(ray, leave);
-    walk.t = step ? leave : walk.t;
-    walk.cell = step ? next : walk.cell;
-    seeking = step && walk.t < ray.end;
+    walk.t = move ? leave : walk.t;
+    walk.cell = move ? next : walk.cell;
+    seeking = seeking && !found && walk.t < ray.end;
   } while (subgroupAny(seeking));
   return found;
 #endif

@@ -20,6 +20,7 @@
 //      368  picture                                                       width, height, first row, rows of this dispatch
 //      384  blocks                                                        blocks per axis of the skipping structure; .w: log2 of their edge
 //      400  bricks                                                        occupancy bricks per axis; .w unused
+//      416  structure                                                     the skipping structure's own numbers (its GLSL twin says which)
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -43,9 +44,10 @@ layout(std140, binding = 0) uniform TraceParameters {
   ivec4 picture;
   ivec4 blocks;
   ivec4 bricks;
+  ivec4 structure;
 #ifdef __cplusplus
 };
-static_assert(sizeof(TraceParameters) == 416);
+static_assert(sizeof(TraceParameters) == 432);
 }  // namespace quincunx
 #else
 }

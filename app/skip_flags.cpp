@@ -1,0 +1,88 @@
+#include "app/skip_flags.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "accel/structure.h"
+#include "app/flags.h"
+#include "app/values.h"
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Clustering>, 3> kClusterings{
+    {{"none", Clustering::none}, {"cubes", Clustering::cubes}, {"boxes", Clustering::boxes}}};
+constexpr std::array<std::pair<std::string_view, KdDepth>, 2> kKdDepths{
+    {{"shallow", KdDepth::shallow}, {"deep", KdDepth::deep}}};
+
+template <class Enum, std::size_t N>
+std::string_view name_of(const std::array<std::pair<std::string_view, Enum>, N>& names, Enum wanted) {
+  for (const auto& [name, value] : names)
+    if (value == wanted) return name;
+  return "";
+}
+template <class Enum, std::size_t N>
+Enum named(const std::array<std::pair<std::string_view, Enum>, N>& names, std::string_view text, std::string_view flag) {
+  std::vector<std::string> choices;
+  for (const auto& [name, value] : names) choices.emplace_back(name);
+  check_choice(text, flag, choices);
+  for (const auto& [name, value] : names)
+    if (name == text) return value;
+  return names.front().second;
+}
+
+void check_given(bool given, std::string_view flag, std::string_view structure, const SkipConfig& config) {
+  if (given && config.structure != structure)
+    throw InputError(fmt::format("{}: found with --skip {}, expected --skip {}", flag, config.structure, structure));
+}
+
+}  // namespace
+
+std::string_view clustering_name(Clustering clustering) { return name_of(kClusterings, clustering); }
+std::string_view kd_name(KdDepth kd) { return name_of(kKdDepths, kd); }
+
+void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
+  std::vector<std::string> structures{"auto"};
+  structures.insert(structures.end(), structure_names().begin(), structure_names().end());
+  add_choice_name(app, "--skip", flags.config.structure, structures,
+                  "How empty space is skipped; changes no pixel. auto: what fits the scene (--explain says why)")
+      ->group(group);
+  add_block(app, flags.config.block)->group(group);
+  add_choice(app, "--cell-test", flags.config.cell_test, {{"on", true}, {"off", false}}, "Test single cells too")
+      ->group(group);
+  const auto cluster = [&flags](const std::vector<std::string>& texts) {
+    flags.config.clustering = texts.empty() || texts[0].empty() ? Clustering::cubes : named(kClusterings, texts[0], "--cluster");
+    flags.clustering_given = true;
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--cluster", cluster, "Of bvh: merge active blocks, to cubes (the published way; if nothing is named) or boxes")
+      ->type_name("{none,cubes,boxes}")
+      ->expected(0, 1)
+      ->default_str("none")
+      ->group(group);
+  const auto edge = [&flags](const std::string& text) {
+    flags.config.max_cluster = int(parse_integer(text, "--max-cluster", 1, 256));
+    flags.max_cluster_given = true;
+  };
+  add_parsed(app, "--max-cluster", edge, "N", fmt::format("{}", flags.config.max_cluster), "Of cubes: the largest edge, in blocks")
+      ->group(group);
+  const auto kd = [&flags](const std::string& text) {
+    flags.config.kd = named(kKdDepths, text, "--kd");
+    flags.kd_given = true;
+  };
+  add_parsed(app, "--kd", kd, "{shallow,deep}", std::string(kd_name(flags.config.kd)),
+             "Of kdtree: a few large leaves, sorted for each picture, or small ones that each ray looks for")
+      ->group(group);
+}
+
+void check_skip_flags(const SkipFlags& flags) {
+  check_given(flags.clustering_given, "--cluster", "bvh", flags.config);
+  check_given(flags.kd_given, "--kd", "kdtree", flags.config);
+  if (flags.max_cluster_given && flags.config.clustering != Clustering::cubes)
+    throw InputError(fmt::format("--max-cluster: found with --cluster {}, expected --cluster cubes",
+                                 clustering_name(flags.config.clustering)));
+}
+
+}  // namespace quincunx

@@ -1,0 +1,44 @@
+// The min/max octree (accel/octree.h), one level a step. parameters.structure: x the last level, which is one node, y its place
+// in octreeBounds, z the number of windows.
+layout(binding = 3) uniform usamplerBuffer octreeBounds;
+layout(binding = 9) uniform usamplerBuffer octreeWindows;
+
+struct SkipState {
+  int level;   // to look at next
+  int offset;  // its place in octreeBounds
+};
+SkipState begin_skip() { return SkipState(parameters.structure.x, parameters.structure.y); }
+
+bool octree_touches(uvec2 bounds) {
+#if ISOVALUES == 1
+  uvec2 window = texelFetch(octreeWindows, 0).rg;
+  return bounds.x < window.x && bounds.y >= window.y;
+#else
+  bool touches = false;
+  for (int k = 0; k < parameters.structure.z; ++k) {
+    uvec2 window = texelFetch(octreeWindows, k).rg;
+    touches = touches || (bounds.x < window.x && bounds.y >= window.y);
+  }
+  return touches;
+#endif
+}
+
+ivec3 octree_size(int level) { return (parameters.blocks.xyz + ((1 << level) - 1)) >> level; }
+
+bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+  int shift = parameters.blocks.w + state.level;
+  ivec3 node = cell >> shift;
+  ivec3 size = octree_size(state.level);
+  bool touches = octree_touches(texelFetch(octreeBounds, state.offset + (node.z * size.y + node.y) * size.x + node.x).rg);
+  until = exit_time(ray, node << shift, 1 << shift);
+  from = touches ? t : until;
+  bool deeper = touches && state.level > 0;
+  // Behind an answer the next node may be larger.
+  int level = deeper ? state.level - 1 : min(state.level + 1, parameters.structure.x);
+  ivec3 finer = octree_size(max(state.level - 1, 0));
+  int up = level > state.level ? size.x * size.y * size.z : 0;
+  int offset = deeper ? state.offset - finer.x * finer.y * finer.z : state.offset + up;
+  state.level = asked ? level : state.level;
+  state.offset = asked ? offset : state.offset;
+  return asked && !deeper;
+}
