@@ -127,12 +127,13 @@ SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, 
   prepare_coefficients(stats, progress);
   prepare_bounds(request, stats, progress);
   if (request.skip.structure == "none" || !is_open(request.skip)) return {request.skip, ""};
-  const Stopwatch watch;
   std::vector<double> isovalues;
   for (const Isosurface& s : visible_surfaces(request.scene)) isovalues.push_back(s.isovalue);
-  const SkipChoice choice = choose_skip(request.skip, *cells_, isovalues, {.cpu = gpu::info(device_).type == "CPU"});
+  if (chosen_ && chosen_->wanted == request.skip && chosen_->isovalues == isovalues) return chosen_->choice;
+  const Stopwatch watch;
+  chosen_ = Chosen{request.skip, isovalues, choose_skip(request.skip, *cells_, isovalues, {.cpu = gpu::info(device_).type == "CPU"})};
   stats.classify_ms += watch.ms();
-  return choice;
+  return chosen_->choice;
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {

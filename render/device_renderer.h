@@ -69,6 +69,13 @@ class DeviceRenderer final : public Renderer {
   std::vector<gpu::Buffer> coefficient_buffers_;
 
   std::optional<CellBounds> cells_;
+  /// What was left open last, and how it was filled in.
+  struct Chosen {
+    SkipConfig wanted;
+    std::vector<double> isovalues;
+    SkipChoice choice;
+  };
+  std::optional<Chosen> chosen_;
   DeviceSkipping skipping_;
   gpu::Buffer isosurfaces_, parameters_;
 };

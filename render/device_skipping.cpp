@@ -90,19 +90,22 @@ void DeviceSkipping::classify_cells(const CellBounds& cells, std::span<const dou
   stats.classify_ms += watch.ms();
 }
 
-void DeviceSkipping::upload(RenderStats& stats) {
+bool DeviceSkipping::upload(RenderStats& stats) {
   const Stopwatch watch;
+  bool any = false;
   for (const StructureBuffer& wanted : structure_->buffers()) {
     const auto old = std::find_if(buffers_.begin(), buffers_.end(), [&](const Uploaded& u) { return u.name == wanted.name; });
     if (old != buffers_.end() && old->version == wanted.version) continue;
     if (old != buffers_.end()) buffers_.erase(old);
+    any = true;
     buffers_.push_back({wanted.name, wanted.version, upload_texels(device_, wanted.bytes, wanted.name, vulkan_format(wanted.format))});
   }
   if (config_.cell_test && occupancy_ && !occupancy_uploaded_) {
     occupancy_buffer_ = upload_texels(device_, std::as_bytes(std::span(occupancy_->words)), "occupancy", VK_FORMAT_R32G32_UINT);
-    occupancy_uploaded_ = true;
+    occupancy_uploaded_ = any = true;
   }
-  stats.upload_ms += watch.ms();
+  if (any) stats.upload_ms += watch.ms();
+  return any;
 }
 
 gpu::Resources DeviceSkipping::resources() const {
@@ -138,15 +141,15 @@ void DeviceSkipping::describe(const CellBounds* cells, std::span<const double> i
 
 void DeviceSkipping::prepare(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues,
                              const glm::dvec3& eye, RenderStats& stats) {
-  check_config(config);
+  if (config.structure != "none") check_config(config);
   prepare_structure(config, cells, isovalues, stats);
   config_ = config;
   if (structure_->needs() == Needs::nothing) config_.cell_test = false;
   if (config_.cell_test) classify_cells(*cells, isovalues, stats);
   const Stopwatch arranging;
   structure_->arrange(eye);
-  stats.build_ms += arranging.ms();
-  upload(stats);
+  const double arrange_ms = arranging.ms();
+  if (upload(stats)) stats.build_ms += arrange_ms;
 }
 
 }  // namespace quincunx

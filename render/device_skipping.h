@@ -43,7 +43,8 @@ class DeviceSkipping {
   bool same_kind(const SkipConfig& config) const;
   void prepare_structure(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues, RenderStats& stats);
   void classify_cells(const CellBounds& cells, std::span<const double> isovalues, RenderStats& stats);
-  void upload(RenderStats& stats);
+  /// False where nothing had changed.
+  bool upload(RenderStats& stats);
 
   gpu::Device& device_;
   SkipConfig config_;

@@ -30,7 +30,7 @@ constexpr Part kParts[] = {
      "more than one isovalue", "one isovalue"},
     {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return !v.stub && v.composite; },
      "a surface is not opaque", "every surface is opaque: the first hit ends the ray"},
-    {kSkipPart, "SKIP", "skip_probe", skips, "--skip names it", "--skip none: no structure is bound"},
+    {kSkipPart, "SKIP", "skip_step", skips, "--skip names it", "--skip none: no structure is bound"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},

@@ -24,17 +24,12 @@ void step_off_planes(inout Ray ray, vec3 centre) {
   ray.d = mix(ray.d, mix(vec3(-1e-18), vec3(1e-18), greaterThanEqual(ray.d, vec3(0.0))), lessThan(abs(ray.d), vec3(1e-18)));
 }
 
-Ray make_ray(ivec2 pixel) {
+// The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` is left to the caller.
+Ray clipped_ray(vec3 o, vec3 d, float t_eye) {
   Ray ray;
-  float x = float(2 * pixel.x + 1 - parameters.picture.x) / float(parameters.picture.x);
-  float y = float(parameters.picture.y - 2 * pixel.y - 1) / float(parameters.picture.y);
-  precise vec3 direction = parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz);
-  precise float len = length(direction);
-  precise vec3 d = direction / len;
-  precise vec3 o = parameters.base_hi.xyz + (x * parameters.base_right_hi.xyz + y * parameters.base_up_hi.xyz);
   ray.o = o;
   ray.d = d;
-  ray.view = normalize(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
+  ray.view = vec3(0.0);
 
   vec3 centre = 0.5 * vec3(parameters.cells.xyz);
   step_off_planes(ray, centre);
@@ -46,9 +41,20 @@ Ray make_ray(ivec2 pixel) {
   vec3 t_high = (centre - ray.o) * ray.inverse;
   vec3 t_in = min(t_low, t_high);
   vec3 t_out = max(t_low, t_high);
-  float t_eye = -parameters.base_hi.w * len;
   ray.begin = max(max(t_in.x, t_in.y), max(t_in.z, t_eye));
   ray.end = min(t_out.x, min(t_out.y, t_out.z));
+  return ray;
+}
+
+Ray make_ray(ivec2 pixel) {
+  float x = float(2 * pixel.x + 1 - parameters.picture.x) / float(parameters.picture.x);
+  float y = float(parameters.picture.y - 2 * pixel.y - 1) / float(parameters.picture.y);
+  precise vec3 direction = parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz);
+  precise float len = length(direction);
+  precise vec3 d = direction / len;
+  precise vec3 o = parameters.base_hi.xyz + (x * parameters.base_right_hi.xyz + y * parameters.base_up_hi.xyz);
+  Ray ray = clipped_ray(o, d, -parameters.base_hi.w * len);
+  ray.view = normalize(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
   return ray;
 }
 

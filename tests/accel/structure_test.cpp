@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <set>
 
 #include "coefficient_sets.h"
@@ -10,45 +11,67 @@
 namespace quincunx {
 namespace {
 
-Classification example(int block, double isovalue) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({9, 7, 5}));
-  return classify(block_bounds(cells, block), cells, std::vector{isovalue});
-}
+/// Blocks of a small volume.
+struct Example {
+  Example(int block, double isovalue)
+      : blocks(block_bounds(cells, block)), classification(classify(blocks, cells, std::vector{isovalue})), thresholds(cells, std::vector{isovalue}) {}
 
-TEST(Structure, EveryNameMakesAStructureOfThatNameWithAShaderOfItsOwn) {
-  std::set<std::string_view> shaders;
+  CellBounds cells = bcc7_bounds(smooth_coefficients({9, 7, 5}));
+  BlockBounds blocks;
+  Classification classification;
+  Thresholds thresholds;
+};
+
+TEST(Structure, EveryNameMakesAStructureOfThatName) {
   for (std::string_view name : structure_names()) {
-    const auto structure = make_structure(name);
-    EXPECT_EQ(structure->name(), name);
-    EXPECT_EQ(structure->shader(), "skip_" + std::string(name) + ".glsl");
-    shaders.insert(structure->shader());
+    SkipConfig config;
+    config.structure = name;
+    EXPECT_EQ(make_structure(config)->name(), name);
   }
-  EXPECT_EQ(shaders.size(), structure_names().size());
 }
 
-TEST(Structure, EveryOneBuildsAgainAndAgainAndGivesBuffersIfItReadsAClassification) {
-  for (std::string_view name : structure_names()) {
-    const auto structure = make_structure(name);
+TEST(Structure, EveryLabelIsThatOfItsOwnConfigurationAndEveryStructureHasOne) {
+  std::set<std::string> structures;
+  for (std::string_view label : skip_labels()) {
+    const SkipConfig config = labelled_skip(label, {.block = 8, .cell_test = false});
+    EXPECT_EQ(skip_label(config), label);
+    EXPECT_EQ(config.block, 8);
+    EXPECT_FALSE(config.cell_test);
+    structures.insert(config.structure);
+  }
+  EXPECT_EQ(structures, std::set<std::string>(structure_names().begin(), structure_names().end()));
+  EXPECT_THROW(labelled_skip("bvh:spheres"), InputError);
+}
+
+TEST(Structure, EveryOneBuildsAgainAndAgainAndTellsWhatHasChanged) {
+  for (std::string_view label : skip_labels()) {
+    SCOPED_TRACE(label);
+    const auto structure = make_structure(labelled_skip(label));
+    std::map<std::string, std::uint64_t> versions;
     for (int block : {8, 2, 4}) {
-      structure->build(example(block, 1000.0));
+      const Example e(block, 1000.0);
+      structure->prepare(e.blocks);
+      structure->build(e.classification, e.thresholds);
       const auto buffers = structure->buffers();
-      EXPECT_EQ(buffers.empty(), !structure->needs_classification()) << name;
+      EXPECT_EQ(buffers.empty(), structure->needs() == SkippingStructure::Needs::nothing);
       for (const StructureBuffer& buffer : buffers) {
-        EXPECT_FALSE(buffer.name.empty()) << name;
-        EXPECT_FALSE(buffer.bytes.empty()) << name;
+        EXPECT_FALSE(buffer.name.empty());
+        EXPECT_FALSE(buffer.bytes.empty());
+        EXPECT_NE(versions[buffer.name], buffer.version);
+        versions[buffer.name] = buffer.version;
       }
     }
   }
 }
 
 TEST(Structure, GridHandsOutTheLevelsOfItsBlocksAndKeepsThem) {
-  const auto grid = make_structure("grid");
+  const auto grid = make_structure(labelled_skip("grid"));
   std::vector<std::uint8_t> expected;
   {
-    const Classification c = example(4, 1000.0);
-    EXPECT_THAT(c.level, testing::Contains(Classification::active));
-    expected = c.level;
-    grid->build(c);
+    const Example e(4, 1000.0);
+    EXPECT_THAT(e.classification.level, testing::Contains(Classification::active));
+    expected = e.classification.level;
+    grid->build(e.classification, e.thresholds);
   }
   const auto buffers = grid->buffers();
   ASSERT_EQ(buffers.size(), 1u);
@@ -59,10 +82,12 @@ TEST(Structure, GridHandsOutTheLevelsOfItsBlocksAndKeepsThem) {
 
 TEST(Structure, AnUnknownNameIsRefusedNamingTheChoices) {
   try {
-    make_structure("octree");
+    SkipConfig config;
+    config.structure = "pyramid";
+    make_structure(config);
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("octree"));
+    EXPECT_THAT(e.what(), testing::HasSubstr("pyramid"));
     for (std::string_view name : structure_names()) EXPECT_THAT(e.what(), testing::HasSubstr(std::string(name)));
   }
 }

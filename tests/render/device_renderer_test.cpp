@@ -135,8 +135,9 @@ TEST_F(DeviceRendererTest, AChangeOfIsovalueRebuildsNothingThatDoesNotDependOnIt
   EXPECT_EQ(second.prefilter_ms, 0.0);
   EXPECT_EQ(second.bounds_ms, 0.0);
   EXPECT_EQ(second.compile_ms, 0.0);
-  EXPECT_GT(second.structure_ms, 0.0);
-  EXPECT_EQ(third.structure_ms, 0.0);
+  EXPECT_GT(second.classify_ms, 0.0);
+  EXPECT_EQ(third.classify_ms, 0.0);
+  EXPECT_EQ(third.build_ms + third.cluster_ms, 0.0);
   EXPECT_EQ(third.upload_ms, 0.0);
 }
 
@@ -154,7 +155,8 @@ TEST_F(DeviceRendererTest, AKeptRendererMakesThePictureOfAFreshOne) {
 
 TEST_F(DeviceRendererTest, CoefficientsOverTheLimitOfABufferSpanSeveral) {
   const Volume volume = bumpy_volume({16, 12, 10});
-  const Renderer::Request request = request_for(volume, 0.2);
+  Renderer::Request request = request_for(volume, 0.2);
+  request.skip = {.structure = "grid", .block = 8};
   DeviceRenderer renderer(test_kernels(), volume, {}, {.texel_elements = 1500, .frame_bytes = 0});
   EXPECT_EQ(renderer.variant(request).coefficient_buffers, 6);  // 2*18*14*12 = 6048 coefficients in buffers of 2^10
   RenderStats stats;
@@ -195,7 +197,7 @@ TEST_F(DeviceRendererTest, StatisticsTellWhatThePictureShows) {
   Renderer::Request request = request_for(volume, 0.2);
   request.repeat = 3;
   request.skip.block = 4;
-  request.count_evaluations = true;
+  request.count_costs = true;
   DeviceRenderer renderer(test_kernels(), volume, {});
   RenderStats stats;
   const Frame frame = renderer.render(request, stats);
@@ -222,7 +224,7 @@ TEST_F(DeviceRendererTest, BadRequestsNameTheirFlag) {
   };
   Renderer::Request request = request_for(volume, 0.2);
   request.skip.block = 12;
-  EXPECT_NE(message(request).find("--block: 12"), std::string::npos);
+  EXPECT_NE(message(request).find("--block: found 12"), std::string::npos);
   request = request_for(volume, 0.2);
   request.skip.structure = "magic";
   EXPECT_NE(message(request).find("magic"), std::string::npos);

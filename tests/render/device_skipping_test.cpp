@@ -2,89 +2,124 @@
 #include <gtest/gtest.h>
 
 #include "accel/structure.h"
+#include "tests/render/adversarial_volumes.h"
 #include "tests/render/device_fixture.h"
+#include "tests/render/skip_property.h"
 
 namespace quincunx {
 namespace {
 
-using DeviceSkippingTest = DeviceTest;
-
-struct Case {
-  std::string name;
-  Volume volume;
-  double isovalue;
-};
-
-/// Volumes that a careless bound or walk gets wrong.
-std::vector<Case> adversarial_volumes() {
-  const auto parity = [](const glm::dvec3& u) { return int(u.x + u.y + u.z) / 2 & 1 ? 1.0 : 0.0; };
-  const auto spike = [](const glm::dvec3& u) { return u == glm::dvec3(8, 10, 6) ? 1e6 : 1.0; };
-  const auto sheet = [](const glm::dvec3& u) { return std::exp(-0.5 * std::pow(u.x + u.y - u.z - 10.0, 2.0)); };
-  const auto ramp = [](const glm::dvec3& u) { return u.x - 8.0; };  // a knot plane is the surface
-  const auto step = [](const glm::dvec3& u) { return u.z < 9.0 ? 0.0 : 1.0; };
-  std::vector<Case> cases;
-  cases.push_back({"noise", random_volume({11, 9, 13}, 3), 0.5});
-  cases.push_back({"checkerboard", bcc_volume({8, 8, 8}, parity), 0.5});
-  cases.push_back({"spike", bcc_volume({9, 9, 9}, spike), 2.0});
-  cases.push_back({"diagonal sheet", bcc_volume({10, 10, 10}, sheet), 0.6});
-  cases.push_back({"ramp through lattice points", bcc_volume({9, 9, 9}, ramp), 0.0});
-  cases.push_back({"step", bcc_volume({9, 9, 9}, step), 0.5});
-  cases.push_back({"constant above", bcc_volume({5, 5, 5}, [](const glm::dvec3&) { return 1.0; }), 0.5});
-  cases.push_back({"constant at the isovalue", bcc_volume({5, 5, 5}, [](const glm::dvec3&) { return 0.5; }), 0.5});
-  cases.push_back({"constant below", bcc_volume({5, 5, 5}, [](const glm::dvec3&) { return 0.0; }), 0.5});
-  cases.push_back({"one by one by many", random_volume({1, 1, 40}, 4), 0.5});
-  cases.push_back({"one sample a coset", random_volume({1, 1, 1}, 6), 0.5});
-  return cases;
+/// Every way to skip but none.
+std::vector<std::string_view> skipping_labels() {
+  std::vector<std::string_view> labels = skip_labels();
+  std::erase(labels, "none");
+  return labels;
 }
 
 class EverySetting : public DeviceTest {
  protected:
-  /// Compares every structure, block size and cell test with none, from `views` directions and from inside.
-  void compare_all(const Case& c, Intersect intersect, bool several) {
+  /// A request for the n-th view of `c`; the last of three is from inside.
+  static Renderer::Request view_of(const AdversarialVolume& c, int view, int size) {
+    Renderer::Request request = request_for(c.volume, c.isovalue, size, 30.0 + 120.0 * view, 75.0 - 60.0 * view);
+    if (view == 2) {
+      request.scene.camera.eye = 0.97 * request.scene.camera.target + 0.03 * request.scene.camera.eye;
+      request.scene.camera.fov = 80.0;
+    }
+    return request;
+  }
+
+  /// Compares every structure with none, block by block, with and without the cell test in turns.
+  void compare_all(const AdversarialVolume& c, const Renderer::Request& view, const std::vector<int>& blocks) {
+    bool cell_test = false;
     DeviceRenderer renderer(test_kernels(), c.volume, {});
     RenderStats stats;
-    for (int view = 0; view < 3; ++view) {
-      Renderer::Request request = request_for(c.volume, c.isovalue, 32, 30.0 + 120.0 * view, 75.0 - 60.0 * view);
-      if (view == 2) {
-        request.scene.camera.eye = 0.97 * request.scene.camera.target + 0.03 * request.scene.camera.eye;
-        request.scene.camera.fov = 80.0;
-      }
-      request.scene.intersect = intersect;
-      request.scene.step = 0.7;
-      if (several) request.scene.isosurfaces = {{c.isovalue, {1, 0, 0}, 0.5}, {0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5}};
-      request.skip.structure = "none";
-      const Frame truth = renderer.render(request, stats);
-      for (const std::string_view structure : structure_names()) {
-        if (structure == "none") continue;
-        for (const int block : {1, 4, 16})
-          for (const bool cell_test : {false, true}) {
-            request.skip = {std::string(structure), block, cell_test};
-            SCOPED_TRACE(c.name + ", " + request.skip.structure + ", block " + std::to_string(block) + ", view " +
-                         std::to_string(view) + (cell_test ? ", cells tested" : ""));
-            expect_same_picture(renderer.render(request, stats), truth);
-          }
+    Renderer::Request request = view;
+    request.skip.structure = "none";
+    const Frame truth = renderer.render(request, stats);
+    for (const int block : blocks) {
+      cell_test = !cell_test;  // each label, an even number of them, has both
+      for (const std::string_view label : skipping_labels()) {
+        cell_test = !cell_test;
+        request.skip = labelled_skip(label, {.block = block, .cell_test = cell_test});
+        SCOPED_TRACE(c.name + ", " + std::string(label) + ", block " + std::to_string(block) + (cell_test ? ", cells tested" : ""));
+        expect_same_picture(renderer.render(request, stats), truth);
       }
     }
   }
 };
 
 TEST_F(EverySetting, ShowsTheFirstRootsThatNoneShows) {
-  for (const Case& c : adversarial_volumes()) compare_all(c, Intersect::exact, false);
+  int view = 0;
+  for (const AdversarialVolume& c : adversarial_volumes()) compare_all(c, view_of(c, view++ % 3, 24), {2, 4, 8, 16, 32, 64});
 }
 
 TEST_F(EverySetting, ShowsTheSurfacesBehindEachOtherThatNoneShows) {
-  for (const Case& c : adversarial_volumes()) compare_all(c, Intersect::exact, true);
+  int view = 1;
+  for (const AdversarialVolume& c : adversarial_volumes()) {
+    Renderer::Request request = view_of(c, view++ % 3, 16);
+    request.scene.isosurfaces = {{c.isovalue, {1, 0, 0}, 0.5}, {0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5}};
+    compare_all(c, request, {2, 8});
+  }
+}
+
+TEST_F(EverySetting, ShowsTheMarchedSamplesThatNoneShows) {
+  int view = 2;
+  for (const AdversarialVolume& c : adversarial_volumes()) {
+    Renderer::Request request = view_of(c, view++ % 3, 24);
+    request.scene.intersect = Intersect::march;
+    request.scene.step = 0.7;
+    compare_all(c, request, {1, 4, 16});
+  }
 }
 
 TEST_F(EverySetting, ShowsTheMarchedLayersThatNoneShowsEvenWhereSamplesMissOne) {
   // Layers thinner than a step: what a skipped block knows of them must not reach the samples.
   const auto layers = [](const glm::dvec3& u) { return std::sin(2.2 * u.x) + 0.5 * std::sin(1.7 * u.y + 0.9 * u.z); };
-  compare_all({"layers", bcc_volume({12, 12, 12}, layers), 0.5}, Intersect::march, true);
-  compare_all({"noise", random_volume({12, 12, 12}, 9), 0.7}, Intersect::march, true);
+  for (const AdversarialVolume& c : {AdversarialVolume{"layers", bcc_volume({12, 12, 12}, layers), 0.5}, {"noise", random_volume({12, 12, 12}, 9), 0.7}})
+    for (const int view : {0, 1, 2}) {
+      Renderer::Request request = view_of(c, view, 32);
+      request.scene.intersect = Intersect::march;
+      request.scene.step = 0.7;
+      request.scene.isosurfaces.push_back({0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5});
+      request.scene.isosurfaces.front().opacity = 0.5;
+      compare_all(c, request, {1, 4, 16});
+    }
 }
 
-TEST_F(EverySetting, ShowsTheMarchedSamplesThatNoneShows) {
-  for (const Case& c : adversarial_volumes()) compare_all(c, Intersect::march, false);
+TEST_F(EverySetting, ShowsManySurfacesAtOnceAsNoneDoes) {
+  const AdversarialVolume c{"noise", random_volume({9, 8, 10}, 12), 0.5};
+  Renderer::Request request = view_of(c, 0, 32);
+  request.scene.isosurfaces.clear();
+  for (int k = 0; k < 40; ++k) request.scene.isosurfaces.push_back({0.2 + 0.02 * k, {1.0, 0.02 * k, 0.5}, 0.3});
+  compare_all(c, request, {2, 8});
+}
+
+TEST_F(EverySetting, HoldsNoPointOfTheSurfaceInWhatItSkips) {
+  SkippedSpace all;
+  std::uint32_t seed = 1;
+  for (const std::string_view label : skipping_labels()) {
+    SkippedSpace seen;
+    for (const AdversarialVolume& v : adversarial_volumes()) {
+      const SkipConfig config = labelled_skip(label, {.block = 1 << seed % 4, .cell_test = seed / 4 % 2 == 1});
+      seen += look_into_skipped_space(v, config, 8192, seed++);
+    }
+    EXPECT_EQ(seen.violations, 0u) << label;
+    EXPECT_GT(seen.stretches, seen.rays / 2) << label;
+    all += seen;
+  }
+  std::printf("%llu rays, %llu points of %llu skipped stretches; seeds 1 to %u\n", static_cast<unsigned long long>(all.rays),
+              static_cast<unsigned long long>(all.points), static_cast<unsigned long long>(all.stretches), seed - 1);
+}
+
+TEST_F(EverySetting, IsCaughtWhereItsBoundsAreTooNarrow) {
+  // What the test above would say of a structure that believes a tenth too little.
+  for (const std::string_view label : skipping_labels()) {
+    SkippedSpace seen;
+    std::uint32_t seed = 1;
+    for (const AdversarialVolume& v : adversarial_volumes())
+      seen += look_into_skipped_space(v, labelled_skip(label, {.block = 2, .cell_test = false}), 4096, seed++, 0.1);
+    EXPECT_GT(seen.violations, 0u) << label;
+  }
 }
 
 }  // namespace
