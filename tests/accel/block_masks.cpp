@@ -57,7 +57,8 @@ std::vector<BlockMask> block_masks() {
     add("corner " + std::to_string(corner), corners, [&](const glm::ivec3& b) {
       return b == glm::ivec3(corner & 1 ? 5 : 0, corner & 2 ? 4 : 0, corner & 4 ? 3 : 0);
     });
-  for (const glm::ivec3& blocks : {glm::ivec3(5, 3, 7), {1, 1, 1}, {1, 1, 40}, {40, 1, 1}, {1, 90, 1}, {64, 2, 2}, {65, 3, 1}, {128, 1, 3}}) {
+  const glm::ivec3 small[] = {{5, 3, 7}, {1, 1, 1}, {1, 1, 40}, {40, 1, 1}, {1, 90, 1}, {64, 2, 2}, {65, 3, 1}, {128, 1, 3}};
+  for (const glm::ivec3& blocks : small) {
     const std::string size = std::to_string(blocks.x) + " x " + std::to_string(blocks.y) + " x " + std::to_string(blocks.z);
     masks.push_back({"all of " + size, filled_mask(blocks)});
     add("none of " + size, blocks, [](const glm::ivec3&) { return false; });
