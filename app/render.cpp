@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "app/command.h"
 #include "app/interrupt.h"
@@ -26,21 +27,26 @@ using Clock = std::chrono::steady_clock;
 /// What a summary needs beside the flags.
 struct Outcome {
   Json stats;
-  SampleRange range;  ///< of the samples
+  SampleRange range;         ///< of the samples
+  bool walked_only = false;  ///< nothing could be hit
 };
 
-/// Whether write_image makes an OpenEXR file of `path`: the extension decides, whatever its case.
-bool is_exr(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".exr";
+/// What a .png shows: the heat, or the surfaces.
+Image picture(const RenderFlags& flags, const Frame& frame, const std::optional<HeatMap>& heat) {
+  if (!heat) return flags.background_given ? to_opaque_image(frame) : to_image(frame);
+  HeatPicture drawn = draw_heat(*heat);
+  if (!drawn.labelled && flags.verbosity == Verbosity::normal)
+    fmt::print(stderr, "note: no font found, the scale has no numbers\n");
+  return std::move(drawn.image);
 }
 
-void write_outputs(const RenderFlags& flags, const Frame& frame, const Json& stats) {
-  const Image channels = to_image(frame), opaque = to_opaque_image(frame);
+void write_outputs(const RenderFlags& flags, const Frame& frame, const std::optional<HeatMap>& heat, const Json& stats) {
+  const auto is_png = [](const std::string& path) { return !is_exr(path); };
+  const bool shown = std::any_of(flags.images.begin(), flags.images.end(), is_png);
+  const Image channels = to_image(frame), shown_picture = shown ? picture(flags, frame, heat) : Image{};
   for (const std::string& path : flags.images) {
     stop_if_interrupted();
-    write_image(flags.background_given && !is_exr(path) ? opaque : channels, path);
+    write_image(is_exr(path) ? channels : shown_picture, path);
   }
   if (flags.stats.empty()) return;
   const std::string text = stats.dump(2) + "\n";
@@ -49,15 +55,18 @@ void write_outputs(const RenderFlags& flags, const Frame& frame, const Json& sta
   file.commit();
 }
 
-/// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit.
+/// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit
+/// although something could have been.
 void print_summary(const RenderFlags& flags, const Outcome& outcome) {
   const std::string made = flags.images.empty() ? flags.volume : fmt::format("{}", fmt::join(flags.images, ", "));
   const Json& ms = outcome.stats["trace_ms"]["median"];
-  fmt::print(stderr, "{}: {} of {} rays hit{} on {}\n", made, outcome.stats["hits"].get<std::uint64_t>(),
-             outcome.stats["rays"].get<std::uint64_t>(),
+  const std::uint64_t hits = outcome.stats["hits"], rays = outcome.stats["rays"];
+  fmt::print(stderr, "{}: {}{} on {}\n", made,
+             outcome.walked_only ? fmt::format("{} rays walked to their end, nothing evaluated", rays)
+                                 : fmt::format("{} of {} rays hit", hits, rays),
              ms.is_null() ? "" : fmt::format(", {:.1f} ms a frame", ms.get<double>()),
              outcome.stats["device"].get<std::string>());
-  if (outcome.stats["hits"] == 0) {
+  if (hits == 0 && !outcome.walked_only) {
     fmt::print(stderr, "note: nothing was hit; the samples go from {:g} to {:g}\n", outcome.range.min,
                outcome.range.max);
   }
@@ -67,8 +76,14 @@ Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Requ
               double read_ms, ProgressBar& bar) {
   RenderStats stats;
   const Frame frame = renderer.render(request, stats, bar.stage("rendering"));
-  Outcome outcome{stats_json(flags.volume, request, stats, read_ms), sample_range(volume)};
-  write_outputs(flags, frame, outcome.stats);
+  Outcome outcome{stats_json(flags.volume, request, stats, read_ms), sample_range(volume), request.scene.stub_sampling};
+  std::optional<HeatMap> heat;
+  if (flags.heat != HeatKind::none) {
+    check_heat(flags.heat, request.scene, stats.skip.structure);
+    heat = make_heat(flags.heat, frame, request.scene, stats);
+    outcome.stats["heat"] = heat_json(flags.heat, *heat);
+  }
+  write_outputs(flags, frame, heat, outcome.stats);
   return outcome;
 }
 

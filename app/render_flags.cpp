@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <filesystem>
 #include <set>
 
 #include "app/flags.h"
@@ -78,6 +80,8 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
   app.add_flag("--cost", flags.scene.cost,
                "Also the cost channels in .exr: evaluations, steps, intervals of each pixel")
       ->group(group);
+  add_choice(app, "--heat", flags.heat, heat_kinds(), "Make .png a heat picture of what each ray cost, with its scale")
+      ->group(group);
   app.add_option("--stats", flags.stats, "JSON file of times, bytes and counts to write")
       ->type_name("S.json")
       ->group(group);
@@ -118,6 +122,15 @@ void check_count(std::size_t found, std::size_t surfaces, const char* flag) {
       fmt::format("{}: found {} values for {} isovalues, expected one for all or one each", flag, found, surfaces));
 }
 
+void check_heat_flag(const RenderFlags& flags) {
+  if (flags.heat == HeatKind::none) return;
+  if (std::all_of(flags.images.begin(), flags.images.end(), is_exr))
+    throw InputError("--heat: found no .png among the pictures of -o, expected -o OUT.png for the heat picture");
+  if (flags.heat == HeatKind::depth && flags.device == "cpu")
+    throw InputError("--heat: found depth with --device cpu, which walks no structure; expected a Vulkan device");
+  check_heat(flags.heat, flags.scene, flags.skip.config.structure);
+}
+
 void check_outputs(const RenderFlags& flags) {
   std::set<std::string> seen;
   for (const std::string& path : flags.images) {
@@ -132,6 +145,12 @@ void check_outputs(const RenderFlags& flags) {
 }
 
 }  // namespace
+
+bool is_exr(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".exr";
+}
 
 void add_render_flags(CLI::App& app, RenderFlags& flags) {
   app.add_option("VOLUME", flags.volume, "NRRD file of a BCC volume")->required();
@@ -154,6 +173,7 @@ void check_render_flags(const RenderFlags& flags) {
   check_camera_flags(flags.camera);
   check_skip_flags(flags.skip);
   check_outputs(flags);
+  check_heat_flag(flags);
 }
 
 std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
@@ -187,6 +207,8 @@ Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
                             .skip = flags.skip.config,
                             .repeat = flags.repeat,
                             .count_costs = !flags.stats.empty() || flags.json};
+  request.scene.cost = flags.scene.cost || flags.heat != HeatKind::none;
+  request.scene.stub_sampling = flags.scene.stub_sampling || flags.heat == HeatKind::depth;
   request.scene.isosurfaces = make_isosurfaces(flags);
   request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);
   check_scene(request.scene);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/camera_flags.h"
+#include "app/heat.h"
 #include "app/progress_bar.h"
 #include "app/skip_flags.h"
 #include "render/renderer.h"
@@ -16,6 +17,7 @@ struct RenderFlags {
   std::string volume;
   std::vector<std::string> images;  ///< -o
   std::string stats;                ///< --stats, empty for none
+  HeatKind heat = HeatKind::none;   ///< of every .png
   std::vector<double> isovalues, opacities;
   std::vector<glm::dvec3> colors;
   CameraFlags camera;
@@ -31,6 +33,9 @@ struct RenderFlags {
   /// Whether there is anything to trace for: --explain alone needs no picture.
   bool renders() const { return !images.empty() || !stats.empty() || (json && !explain); }
 };
+
+/// Whether write_image makes an OpenEXR file of `path`: the extension decides, whatever its case.
+bool is_exr(const std::string& path);
 
 void add_render_flags(CLI::App& app, RenderFlags& flags);
 

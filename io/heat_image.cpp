@@ -17,7 +17,7 @@ using Color = std::array<float, 3>;
 constexpr int kColors = 1024;          // of the scale
 constexpr double kDigitWidth = 0.65;   // of the font size, a little more than that of DejaVu Sans
 constexpr double kLetterWidth = 0.58;  // the same of a title's letters and spaces together
-constexpr double kPercentile = 0.999;
+constexpr double kPercentile = 0.99;
 
 /// The smallest of 1, 2, 5 times a power of ten that is at least `x` > 0.
 double round_up(double x) {

@@ -23,9 +23,8 @@ struct HeatScale {
   bool exceeded = false;  ///< some values are above the maximum and have its colour
 };
 
-/// The scale of a map. Unless the map says where it ends, it ends at the 99.9th percentile (at the largest value where
-/// that percentile is 0), rounded up to a whole step: a few outliers take no colours from the rest. Whole numbers get
-/// whole steps.
+/// The scale of a map. Unless the map says where it ends, it ends at the 99th percentile (at the largest value where that
+/// percentile is 0), rounded up to a whole step: outliers take no colours from the rest. Whole numbers get whole steps.
 HeatScale heat_scale(const HeatMap& map);
 
 /// Where things are in the picture, in pixels from its upper left corner; all follows from the map's size, its

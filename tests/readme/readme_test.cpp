@@ -136,6 +136,7 @@ TEST_F(Readme, TheStatisticsHaveTheKeysThatItNamesAndNoOthers) {
   };
   std::set<std::string> written = keys_of("");
   written.merge(keys_of("--intersect march --normal central"));
+  written.merge(keys_of("--heat steps -o out/keys.png"));
 
   const std::string text = section(readme(), "## Statistics");
   ASSERT_FALSE(text.empty());
