@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 
 #include "app/interrupt.h"
 
@@ -15,13 +17,15 @@ ProgressBar::ProgressBar(Verbosity verbosity)
       next_(Clock::now() + std::chrono::seconds(1)) {}
 
 Progress ProgressBar::stage(std::string name) {
-  return [this, name = std::move(name)](double fraction) {
+  return [this, name = std::move(name), start = Clock::now(), left = std::make_shared<TimeLeft>()](double fraction) {
     stop_if_interrupted();
-    if (enabled_) show(name, fraction);
+    if (!enabled_) return;
+    left->note(std::chrono::duration<double>(Clock::now() - start).count(), fraction);
+    show(name, fraction, *left);
   };
 }
 
-void ProgressBar::show(const std::string& name, double fraction) {
+void ProgressBar::show(const std::string& name, double fraction, const TimeLeft& left) {
   constexpr int width = 30;
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
@@ -31,6 +35,7 @@ void ProgressBar::show(const std::string& name, double fraction) {
   const int full = int(part * width);
   // Carriage return and "erase to the end of the line" (ECMA-48): each drawing replaces the one before.
   fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:.<{}}] {:3.0f} %", name, "", full, "", width - full, 100.0 * part);
+  if (const std::optional<double> seconds = left.seconds()) fmt::print(stderr, "  {}", time_left_text(*seconds));
   std::fflush(stderr);
 }
 

@@ -4,13 +4,14 @@
 #include <chrono>
 #include <string>
 
+#include "app/time_left.h"
 #include "lattice/progress.h"
 
 namespace quincunx {
 
 enum class Verbosity { quiet, normal };
 
-/// A line on stderr that shows a stage's name and the part done. It appears once the command has run for a second, and
+/// A line on stderr that shows a stage's name, the part done and, where that can be told, the time left. It appears once the command has run for a second, and
 /// only where stderr is a terminal; it is erased with the object.
 class ProgressBar {
  public:
@@ -27,7 +28,7 @@ class ProgressBar {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void show(const std::string& name, double fraction);
+  void show(const std::string& name, double fraction, const TimeLeft& left);
 
   bool enabled_;
   bool shown_ = false;
