@@ -68,14 +68,14 @@ CLI::Option* add_size(CLI::App& app, int& width, int& height) {
       ->default_str(fmt::format("{} {}", width, height));
 }
 
+int parse_block(std::string_view text, std::string_view flag) {
+  const std::int64_t n = parse_integer(text, flag, 1, 256);
+  if ((n & (n - 1)) != 0) throw InputError(fmt::format("{}: found {}, expected a power of two from 1 to 256", flag, text));
+  return int(n);
+}
+
 CLI::Option* add_block(CLI::App& app, int& block) {
-  const auto parse = [&block](const std::string& text) {
-    const std::int64_t n = parse_integer(text, "--block", 1, 256);
-    if ((n & (n - 1)) != 0) {
-      throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to 256", text));
-    }
-    block = int(n);
-  };
+  const auto parse = [&block](const std::string& text) { block = parse_block(text, "--block"); };
   return add_parsed(app, "--block", parse, "N", block == 0 ? "what fits" : fmt::format("{}", block),
                     "Edge of the structure's blocks in cells, a power of two");
 }

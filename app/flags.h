@@ -36,6 +36,9 @@ CLI::Option* add_size(CLI::App& app, int& width, int& height);
 /// "--block N": the edge of a structure's blocks in cells, a power of two from 1 to 256. 0 beforehand stands for one that fits.
 CLI::Option* add_block(CLI::App& app, int& block);
 
+/// The edge of a block that is all of `text`: a power of two from 1 to 256. Throws InputError naming `flag`.
+int parse_block(std::string_view text, std::string_view flag);
+
 /// "--device D".
 CLI::Option* add_device(CLI::App& app, std::string& device);
 

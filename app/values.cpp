@@ -35,13 +35,19 @@ double parse_number(std::string_view text, std::string_view flag) {
   return *value;
 }
 
-std::vector<double> parse_numbers(std::string_view text, std::string_view flag) {
-  std::vector<double> values;
+std::vector<std::string_view> split_list(std::string_view text) {
+  std::vector<std::string_view> parts;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t comma = std::min(text.find(',', start), text.size());
-    values.push_back(parse_number(text.substr(start, comma - start), flag));
+    parts.push_back(text.substr(start, comma - start));
     start = comma + 1;
   }
+  return parts;
+}
+
+std::vector<double> parse_numbers(std::string_view text, std::string_view flag) {
+  std::vector<double> values;
+  for (const std::string_view part : split_list(text)) values.push_back(parse_number(part, flag));
   return values;
 }
 

@@ -12,6 +12,9 @@ namespace quincunx {
 /// The finite number that is all of `text`. Throws InputError naming `flag`, what was found and what was expected.
 double parse_number(std::string_view text, std::string_view flag);
 
+/// The parts of `text` between its commas, at least one, empty ones too.
+std::vector<std::string_view> split_list(std::string_view text);
+
 /// Finite numbers separated by commas, at least one. Throws InputError naming `flag`.
 std::vector<double> parse_numbers(std::string_view text, std::string_view flag);
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <span>
 
 #include "app/flags.h"
 #include "app/values.h"
 #include "app/volume_input.h"
 #include "bench/intersect_report.h"
+#include "bench/views.h"
 #include "io/atomic_file.h"
 #include "lattice/error.h"
 
@@ -28,8 +28,6 @@ struct IntersectFlags {
   bool errors = true, markdown = false;
   Verbosity verbosity = Verbosity::normal;
 };
-
-constexpr Orbit kFirstView{30.0, 10.0, 1.0};  // that of `quincunx render`
 
 std::vector<double> parse_steps(const std::string& text) {
   const std::vector<double> steps = parse_numbers(text, "--steps");
@@ -62,28 +60,13 @@ Outputs outputs(const IntersectFlags& flags) {
   return files;
 }
 
-void write_text(const std::string& text, const std::string& path) {
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
-}
-
-/// One request for each view: the volume framed from azimuths that part the circle equally.
-std::vector<Renderer::Request> orbit(const IntersectFlags& flags, const Volume& volume) {
-  std::vector<Renderer::Request> views;
-  for (int view = 0; view < flags.views; ++view) {
-    Orbit at = kFirstView;
-    at.azimuth += 360.0 * view / flags.views;
-    Renderer::Request request;
-    request.scene.isosurfaces = {Isosurface{.isovalue = flags.isovalue}};
-    request.scene.width = flags.width;
-    request.scene.height = flags.height;
-    request.scene.camera = framing_camera(volume.lattice, volume.extents, volume.world, at, flags.width, flags.height);
-    request.skip.block = flags.block;
-    check_scene(request.scene);
-    views.push_back(std::move(request));
-  }
-  return views;
+Renderer::Request request(const IntersectFlags& flags) {
+  Renderer::Request request;
+  request.scene.isosurfaces = {Isosurface{.isovalue = flags.isovalue}};
+  request.scene.width = flags.width;
+  request.scene.height = flags.height;
+  request.skip.block = flags.block;
+  return request;
 }
 
 /// The reference's picture of each view.
@@ -99,7 +82,7 @@ std::vector<Frame> reference_frames(const Truth& truth, const std::vector<Render
 
 IntersectReport measure(const IntersectFlags& flags, ProgressBar& bar) {
   const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
-  const TimingPlan plan{intersect_settings(flags.steps), orbit(flags, volume), flags.rounds};
+  const TimingPlan plan{intersect_settings(flags.steps), orbit_views(request(flags), volume, flags.views), flags.rounds};
   const auto renderer = make_renderer(flags.device, volume, {});
 
   std::unique_ptr<Truth> truth;

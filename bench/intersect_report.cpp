@@ -13,11 +13,6 @@ using Json = nlohmann::ordered_json;
 
 double evaluations_per_ray(const Cost& cost) { return double(cost.evaluations) / double(cost.rays); }
 
-/// Three significant digits, without an exponent from 1 to 10^6.
-std::string three_digits(double x) {
-  return x >= 100.0 && x < 1e6 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
-}
-
 /// Two significant digits: "3.1e-05".
 std::string small(double x) { return x == 0.0 ? "0" : fmt::format("{:.1e}", x); }
 

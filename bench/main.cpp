@@ -1,10 +1,11 @@
-// quincunx-bench: error against time.
+// quincunx-bench: error against time, time against size.
 #include "app/program.h"
+#include "bench/growth.h"
 #include "bench/intersect.h"
 
 int main(int argc, char** argv) {
   using namespace quincunx;
   return run_program({"quincunx-bench", "Error against time: what each way of rendering costs, and what it gets wrong.",
                       QUINCUNX_VERSION},
-                     {intersect_command}, argc, argv);
+                     {intersect_command, growth_command}, argc, argv);
 }

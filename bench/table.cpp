@@ -51,4 +51,8 @@ std::string markdown_text(const Table& table) {
   return text;
 }
 
+std::string three_digits(double x) {
+  return x >= 100.0 && x < 1e6 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
+}
+
 }  // namespace quincunx

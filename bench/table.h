@@ -19,4 +19,7 @@ std::string plain_text(const Table& table);
 /// The same as a table of GitHub's Markdown, aligned as text too.
 std::string markdown_text(const Table& table);
 
+/// Three significant digits, without an exponent from 1 to 10^6.
+std::string three_digits(double x);
+
 }  // namespace quincunx

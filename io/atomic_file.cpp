@@ -60,4 +60,10 @@ void AtomicFile::commit() {
 
 void check_writable(const std::string& path) { AtomicFile probe(path); }
 
+void write_text(std::string_view text, const std::string& path) {
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
 }  // namespace quincunx

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace quincunx {
 
@@ -36,5 +37,8 @@ class AtomicFile {
 
 /// Throws InputError unless `path` could be written now: so that a long job does not fail at its end.
 void check_writable(const std::string& path);
+
+/// Makes `text` the content of the file `path`. Throws InputError like AtomicFile.
+void write_text(std::string_view text, const std::string& path);
 
 }  // namespace quincunx

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 TEST(Help, OfEverySubCommandGoesToStandardOutputAndSucceeds) {
   const std::string list = run({"--help"}).out;
-  for (const std::string command : {"info", "convert", "sample", "eval", "render", "devices"}) {
+  for (const std::string command : {"info", "convert", "sample", "eval", "render", "sweep", "devices"}) {
     const Outcome outcome = run({command, "--help"});
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_EQ(outcome.err, "") << command;

@@ -1,0 +1,75 @@
+#include "bench/gnuplot.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "io/atomic_file.h"
+
+namespace quincunx {
+namespace {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+/// A file without a name that holds `text`, to be read from its beginning. Unlike a pipe it takes all of it at once, and nobody
+/// is hurt where the reader goes away.
+File anonymous_file(const std::string& text) {
+  File file(std::tmpfile());
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
+    throw std::runtime_error("a temporary file cannot be written");
+  std::rewind(file.get());
+  return file;
+}
+
+/// What the child's standard streams are.
+class Streams {
+ public:
+  Streams(int in, const std::string& out) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, in, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, out.c_str(), O_WRONLY | O_TRUNC, 0);
+    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  }
+  ~Streams() { posix_spawn_file_actions_destroy(&actions_); }
+  Streams(const Streams&) = delete;
+  Streams& operator=(const Streams&) = delete;
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+};
+
+}  // namespace
+
+Drawn draw_with_gnuplot(const std::string& script, const std::string& path) {
+  AtomicFile file(path);
+  const File input = anonymous_file(script);
+  const Streams streams(::fileno(input.get()), file.temporary());
+  std::string name = "gnuplot";
+  const std::array<char*, 2> arguments{name.data(), nullptr};
+  pid_t child = -1;
+  const int error = ::posix_spawnp(&child, name.c_str(), streams.actions(), nullptr, arguments.data(), environ);
+  if (error != 0) return error == ENOENT ? Drawn::no_gnuplot : Drawn::failed;
+
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return Drawn::failed;
+  }
+  // An empty drawing is none: gnuplot may end well without having plotted.
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || std::filesystem::file_size(file.temporary()) == 0) return Drawn::failed;
+  file.commit();
+  return Drawn::yes;
+}
+
+}  // namespace quincunx

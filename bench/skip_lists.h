@@ -1,0 +1,16 @@
+// Flags that list ways to skip.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace quincunx {
+
+/// "--structures L[,L...]": labels of skip_labels(), no two alike.
+CLI::Option* add_structures(CLI::App& app, std::vector<std::string>& labels);
+
+/// A flag of edges of blocks, powers of two from 1 to 256, no two alike; `blocks` ascends and holds the default.
+CLI::Option* add_blocks(CLI::App& app, const std::string& flag, std::vector<int>& blocks);
+
+}  // namespace quincunx

@@ -1,0 +1,299 @@
+#include "bench/sweep_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "accel/structure.h"
+#include "app/render_report.h"
+
+namespace quincunx {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double median_ms(const SweepReport& report, std::size_t setting) {
+  return percentile(report.measured[setting].cost.frame_ms, 0.5);
+}
+
+std::uint64_t device_bytes(const RenderStats& stats, std::string_view purpose) {
+  for (const auto& [name, bytes] : stats.device_bytes)
+    if (name == purpose) return bytes;
+  return 0;
+}
+
+double ratio(std::uint64_t part, std::uint64_t whole) { return whole == 0 ? 0.0 : double(part) / double(whole); }
+
+/// "*" before the best, "+" before what auto chose.
+std::string marks(const SweepReport& report, std::size_t setting) {
+  return fmt::format("{}{}", setting == report.best() ? "*" : "", report.settings[setting].chosen ? "+" : "");
+}
+
+bool both_cell_tests(const SweepReport& report) { return report.choices.cell_tests == CellTests::both; }
+const char* cell_test_word(const SweepSetting& setting) { return setting.skip.cell_test ? "on" : "off"; }
+
+/// "grid, 16": a setting in few words, or "none".
+std::string short_name(const SweepSetting& setting) {
+  return setting.skips() ? fmt::format("{}, {}", setting.label(), setting.skip.block) : setting.label();
+}
+
+// ---- tables ----
+
+/// A row of the first table: a structure with or without cell tests, the number of its setting for each block.
+struct StructureRow {
+  std::string label;
+  bool cell_test;
+  std::vector<std::size_t> settings;  ///< measured ones
+};
+
+std::vector<StructureRow> structure_rows(const SweepReport& report) {
+  std::vector<StructureRow> rows;
+  for (std::size_t n = 1; n < report.measured.size(); ++n) {
+    const SweepSetting& setting = report.settings[n];
+    const auto same = [&](const StructureRow& row) {
+      return row.label == setting.label() && row.cell_test == setting.skip.cell_test;
+    };
+    auto row = std::find_if(rows.begin(), rows.end(), same);
+    if (row == rows.end()) row = rows.insert(row, {setting.label(), setting.skip.cell_test, {}});
+    row->settings.push_back(n);
+  }
+  const auto& labels = skip_labels();
+  const auto place = [&](const StructureRow& row) { return std::find(labels.begin(), labels.end(), row.label); };
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return rows;
+}
+
+/// Whether rows with and without cell tests stand in one table.
+bool shows_cell_test(const SweepReport& report) {
+  std::set<bool> tests;
+  for (const SweepSetting& setting : report.settings)
+    if (setting.skips()) tests.insert(setting.skip.cell_test);
+  return tests.size() > 1;
+}
+
+// ---- JSON and CSV ----
+
+Json setting_json(const SweepReport& report, std::size_t n) {
+  const SweepSetting& setting = report.settings[n];
+  const SweepMeasurement& m = report.measured[n];
+  const RenderStats &scene = m.scene, &stages = m.stages;
+  const Spread ms = spread(m.cost.frame_ms), speedup = report.speedup_of(n);
+  const std::int64_t axes = scene.block_extents.x + scene.block_extents.y + scene.block_extents.z;
+  const double walked = ratio(m.traversal_intervals, m.cost.rays);
+  return {{"structure", setting.label()},
+          {"block", setting.skips() ? Json(setting.skip.block) : Json()},
+          {"cell_test", setting.skip.cell_test},
+          {"auto", setting.chosen},
+          {"frame_ms_median", ms.median},
+          {"frame_ms_p5", ms.p5},
+          {"frame_ms_p95", ms.p95},
+          {"frame_ms_worst", percentile(m.cost.frame_ms, 1.0)},
+          {"speedup_median", speedup.median},
+          {"speedup_p5", speedup.p5},
+          {"speedup_p95", speedup.p95},
+          {"bounds_ms", stages.bounds_ms},
+          {"classify_ms", stages.classify_ms},
+          {"cluster_ms", stages.cluster_ms},
+          {"build_ms", stages.build_ms},
+          {"upload_ms", stages.upload_ms},
+          {"new_isovalue_ms", m.new_isovalue_ms},
+          {"structure_bytes", device_bytes(scene, "structure")},
+          {"occupancy_bytes", device_bytes(scene, "occupancy")},
+          {"blocks", scene.blocks},
+          {"active_blocks", scene.active_blocks},
+          {"active_fraction", scene.blocks == 0 ? Json() : Json(ratio(scene.active_blocks, scene.blocks))},
+          {"leaves", scene.leaves},
+          {"nodes", scene.nodes},
+          {"depth", scene.depth},
+          {"evaluations_per_ray", ratio(m.cost.evaluations, m.cost.rays)},
+          {"steps_per_ray", ratio(m.steps, m.cost.rays)},
+          {"intervals_per_ray", ratio(m.intervals, m.cost.rays)},
+          {"traversal_ms", percentile(m.traversal_ms, 0.5)},
+          {"traversal_intervals_per_ray", walked},
+          {"depth_complexity", axes == 0 ? Json() : Json(walked / double(axes))},
+          {"rays", m.cost.rays},
+          {"hits", m.cost.hits}};
+}
+
+const char* cell_tests_word(CellTests tests) {
+  return tests == CellTests::on ? "on" : tests == CellTests::off ? "off" : "both";
+}
+
+Json choice_json(const SweepReport& report) {
+  const auto chosen = std::find_if(report.settings.begin(), report.settings.end(), [](const auto& s) { return s.chosen; });
+  if (chosen == report.settings.end()) return Json();
+  const std::size_t n = std::size_t(chosen - report.settings.begin());
+  const bool known = n < report.measured.size();
+  return {{"structure", chosen->label()},
+          {"block", chosen->skips() ? Json(chosen->skip.block) : Json()},
+          {"cell_test", chosen->skip.cell_test},
+          {"times_best", known ? Json(median_ms(report, n) / median_ms(report, report.best())) : Json()}};
+}
+
+}  // namespace
+
+std::size_t SweepReport::best() const {
+  assert(!measured.empty());
+  std::size_t best = 0;
+  for (std::size_t n = 1; n < measured.size(); ++n)
+    if (median_ms(*this, n) < median_ms(*this, best)) best = n;
+  return best;
+}
+
+Spread SweepReport::speedup_of(std::size_t setting) const {
+  Cost baseline = measured.front().cost;  // has at least as many rounds: none goes first
+  baseline.frame_ms.resize(measured[setting].cost.frame_ms.size());
+  return speedup(measured[setting].cost, baseline);
+}
+
+std::string sweep_caption(const SweepReport& report) {
+  const auto count = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  return fmt::format(
+      "{}, isovalue{} {}, {} x {}, {}, {}, {}{}; {}. Medians, milliseconds; speed-up over none. * the best, + what --skip auto chose.",
+      std::filesystem::path(report.volume).filename().string(), report.isovalues.size() == 1 ? "" : "s",
+      fmt::join(report.isovalues, ", "), report.width, report.height, count(report.views, "view"), count(report.rounds, "round"),
+      report.intersect == Intersect::exact ? "exact" : fmt::format("march {}", report.step),
+      both_cell_tests(report) ? "" : fmt::format(", cell test {}", cell_tests_word(report.choices.cell_tests)),
+      machine_text(report.machine));
+}
+
+Table sweep_frame_table(const SweepReport& report) {
+  const bool tests = shows_cell_test(report);
+  std::set<int> blocks;
+  for (const SweepSetting& setting : report.settings)
+    if (setting.skips()) blocks.insert(setting.skip.block);
+  Table table{.headings = {"structure"}, .rows = {}, .left = tests ? 2u : 1u};
+  if (tests) table.headings.emplace_back("cell test");
+  table.headings.emplace_back("none");
+  for (const int block : blocks) table.headings.push_back(fmt::format("{}", block));
+  table.headings.emplace_back("best speed-up");
+
+  const std::string none = marks(report, 0) + three_digits(median_ms(report, 0));
+  for (const StructureRow& structure : structure_rows(report)) {
+    std::vector<std::string> row{structure.label};
+    if (tests) row.emplace_back(structure.cell_test ? "on" : "off");
+    row.push_back(none);
+    double fastest = 0.0;
+    for (const int block : blocks) {
+      const auto here = std::find_if(structure.settings.begin(), structure.settings.end(),
+                                     [&](std::size_t n) { return report.settings[n].skip.block == block; });
+      if (here == structure.settings.end()) {
+        row.emplace_back("-");
+        continue;
+      }
+      row.push_back(marks(report, *here) + three_digits(median_ms(report, *here)));
+      fastest = std::max(fastest, report.speedup_of(*here).median);
+    }
+    row.push_back(three_digits(fastest));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table sweep_stage_table(const SweepReport& report) {
+  const bool tests = shows_cell_test(report);
+  Table table{.headings = {"structure"}, .rows = {}, .left = tests ? 2u : 1u};
+  if (tests) table.headings.emplace_back("cell test");
+  for (const char* heading : {"block", "blocks", "active", "%", "leaves", "leaves/active %", "classify", "cluster", "build", "upload",
+                              "bytes", "traversal", "frame", "worst", "speed-up"})
+    table.headings.emplace_back(heading);
+  const auto percent = [](std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? std::string("-") : three_digits(100.0 * double(part) / double(whole));
+  };
+  for (std::size_t n = 0; n < report.measured.size(); ++n) {
+    const SweepSetting& setting = report.settings[n];
+    const SweepMeasurement& m = report.measured[n];
+    const RenderStats& scene = m.scene;
+    std::vector<std::string> row{setting.label()};
+    if (tests) row.emplace_back(setting.skips() ? cell_test_word(setting) : "-");
+    row.push_back(setting.skips() ? fmt::format("{}", setting.skip.block) : "-");
+    row.push_back(fmt::format("{}", scene.blocks));
+    row.push_back(fmt::format("{}", scene.active_blocks));
+    row.push_back(percent(scene.active_blocks, scene.blocks));
+    row.push_back(fmt::format("{}", scene.leaves));
+    row.push_back(percent(scene.leaves, scene.active_blocks));
+    for (const double ms : {m.stages.classify_ms, m.stages.cluster_ms, m.stages.build_ms, m.stages.upload_ms})
+      row.push_back(three_digits(ms));
+    row.push_back(fmt::format("{}", device_bytes(scene, "structure")));
+    row.push_back(three_digits(percentile(m.traversal_ms, 0.5)));
+    row.push_back(marks(report, n) + three_digits(median_ms(report, n)));
+    row.push_back(three_digits(percentile(m.cost.frame_ms, 1.0)));
+    row.push_back(three_digits(report.speedup_of(n).median));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string sweep_choice(const SweepReport& report) {
+  const auto chosen = std::find_if(report.settings.begin(), report.settings.end(), [](const auto& s) { return s.chosen; });
+  if (chosen == report.settings.end()) return "auto chose nothing";
+  const std::size_t n = std::size_t(chosen - report.settings.begin()), best = report.best();
+  std::string text = "auto chose " + chosen->label();
+  if (chosen->skips()) text += fmt::format(", blocks of {} cell{}", chosen->skip.block, chosen->skip.block == 1 ? "" : "s");
+  if (n >= report.measured.size()) return text + ": not measured";
+  if (n == best) return text + ": the best";
+  return fmt::format("{}: {:.2f} times the best ({})", text, median_ms(report, n) / median_ms(report, best),
+                     short_name(report.settings[best]));
+}
+
+Json sweep_json(const SweepReport& report) {
+  const Machine& machine = report.machine;
+  Json json{{"measurement", "sweep"},
+            {"volume", report.volume},
+            {"isovalues", report.isovalues},
+            {"size", {report.width, report.height}},
+            {"orbit", report.views},
+            {"repeat", report.rounds},
+            {"intersect", report.intersect == Intersect::exact ? "exact" : "march"}};
+  if (report.intersect == Intersect::march) json["step"] = report.step;
+  json["structures"] = report.choices.labels;
+  json["blocks"] = report.choices.blocks;
+  json["cell_test"] = cell_tests_word(report.choices.cell_tests);
+  json["device"] = machine.device;
+  json["driver"] = machine.driver;
+  json["processor"] = machine.processor;
+  json["cores"] = machine.cores;
+  json["planned"] = report.settings.size();
+  json["measured"] = report.measured.size();
+  json["auto"] = choice_json(report);
+  json["best"] = report.best();
+  for (std::size_t n = 0; n < report.measured.size(); ++n) {
+    Json setting = setting_json(report, n);
+    setting["frames_ms"] = report.measured[n].cost.frame_ms;
+    setting["traversals_ms"] = report.measured[n].traversal_ms;
+    json["settings"].push_back(std::move(setting));
+  }
+  return json;
+}
+
+std::string sweep_csv(const SweepReport& report) {
+  std::string text;
+  for (std::size_t n = 0; n < report.measured.size(); ++n) {
+    std::vector<std::string> keys, values;
+    const Json setting = setting_json(report, n);
+    for (const auto& [key, value] : setting.items()) {
+      keys.push_back(key);
+      values.push_back(value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    if (n == 0) text += fmt::format("{}\n", fmt::join(keys, ","));
+    text += fmt::format("{}\n", fmt::join(values, ","));
+  }
+  return text;
+}
+
+std::string sweep_markdown(const SweepReport& report) {
+  return fmt::format("{}\n\n{}\n{}\n{}.\n", sweep_caption(report), markdown_text(sweep_frame_table(report)),
+                     markdown_text(sweep_stage_table(report)), sweep_choice(report));
+}
+
+std::string sweep_text(const SweepReport& report) {
+  return fmt::format("{}\n\n{}\n{}\n{}\n", sweep_caption(report), plain_text(sweep_frame_table(report)),
+                     plain_text(sweep_stage_table(report)), sweep_choice(report));
+}
+
+}  // namespace quincunx

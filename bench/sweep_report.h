@@ -1,0 +1,50 @@
+// What `quincunx sweep` tells.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/machine.h"
+#include "bench/sweep_measure.h"
+#include "bench/table.h"
+
+namespace quincunx {
+
+/// A whole run.
+struct SweepReport {
+  std::string volume;
+  std::vector<double> isovalues;
+  int width = 0, height = 0, views = 0, rounds = 0;
+  Intersect intersect = Intersect::exact;
+  double step = 0.0;  ///< of march, in cells
+  SweepChoices choices;
+  Machine machine;
+  std::vector<SweepSetting> settings;      ///< as they were planned; the first one is none
+  std::vector<SweepMeasurement> measured;  ///< of the first of them, at least one; of fewer than there are after Ctrl-C
+
+  /// Number of the setting with the least median frame time.
+  std::size_t best() const;
+  /// How many times as fast as none: frames of the same round and view.
+  Spread speedup_of(std::size_t setting) const;
+};
+
+/// What was measured where, and what the marks mean, in sentences.
+std::string sweep_caption(const SweepReport& report);
+/// One row a structure, one column a block size: median frame times. In the form of M. Kim's Table 4 (spline/bcc7.h).
+Table sweep_frame_table(const SweepReport& report);
+/// One row a setting: blocks, leaves, stages, times. In the form of Table 1 of D. Ganter, M. Manzke, "An analysis of region
+/// clustered BVH volume rendering on GPU", Computer Graphics Forum 38(8), 2019, doi:10.1111/cgf.13756.
+Table sweep_stage_table(const SweepReport& report);
+/// What `--skip auto` chose, and how far it is from the best.
+std::string sweep_choice(const SweepReport& report);
+
+/// docs/performance.md names the keys.
+nlohmann::ordered_json sweep_json(const SweepReport& report);
+/// A line of keys and one line for each setting that was measured, the numbers those of sweep_json.
+std::string sweep_csv(const SweepReport& report);
+/// Caption, tables and choice.
+std::string sweep_markdown(const SweepReport& report);
+std::string sweep_text(const SweepReport& report);
+
+}  // namespace quincunx
