@@ -17,7 +17,7 @@ class SlowingRenderer final : public Renderer {
     stats.trace_ms.assign(std::size_t(request.repeat), double(requests.size()));
     stats.rays = 10;
     stats.hits = 4;
-    stats.evaluations = request.count_evaluations ? 30 : 0;
+    stats.evaluations = request.count_costs ? 30 : 0;
     return {};
   }
   std::vector<Feature> explain(const Request&) override { return {}; }
