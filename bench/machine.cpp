@@ -24,6 +24,7 @@ std::string processor_name() {
 
 Machine this_machine(const std::string& device) {
   Machine machine{device, "", processor_name(), std::thread::hardware_concurrency()};
+  if (device.empty()) return machine;
   for (const gpu::DeviceInfo& info : gpu::list_devices()) {
     if (info.name == device) machine.driver = info.driver;
   }
@@ -31,8 +32,9 @@ Machine this_machine(const std::string& device) {
 }
 
 std::string machine_text(const Machine& machine) {
-  return fmt::format("{}{}{}, on {} cores of {}", machine.device, machine.driver.empty() ? "" : ", ", machine.driver,
-                     machine.cores, machine.processor);
+  const std::string processor = fmt::format("on {} cores of {}", machine.cores, machine.processor);
+  if (machine.device.empty()) return processor;
+  return fmt::format("{}{}{}, {}", machine.device, machine.driver.empty() ? "" : ", ", machine.driver, processor);
 }
 
 }  // namespace quincunx

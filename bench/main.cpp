@@ -1,5 +1,6 @@
-// quincunx-bench: error against time, time against size.
+// quincunx-bench: error against time, time against size, leaves against time.
 #include "app/program.h"
+#include "bench/cluster.h"
 #include "bench/growth.h"
 #include "bench/intersect.h"
 
@@ -7,5 +8,5 @@ int main(int argc, char** argv) {
   using namespace quincunx;
   return run_program({"quincunx-bench", "Error against time: what each way of rendering costs, and what it gets wrong.",
                       QUINCUNX_VERSION},
-                     {intersect_command, growth_command}, argc, argv);
+                     {intersect_command, growth_command, cluster_command}, argc, argv);
 }
