@@ -27,6 +27,14 @@ BoxTree::Node absent() { return packed({glm::ivec3(1), glm::ivec3(0)}, BoxTree::
 
 }  // namespace
 
+int depth_of(const std::vector<BoxNode>& nodes) {
+  std::vector<int> levels(nodes.size(), 1);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (const std::int32_t child : nodes[n].child)
+      if (child >= 0) levels[std::size_t(child)] = levels[n] + 1;
+  return nodes.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
+}
+
 BoxTree flatten(const std::vector<BoxNode>& nodes) {
   BoxTree tree;
   tree.nodes.reserve(std::max<std::size_t>(nodes.size() + 1, 2));

@@ -37,6 +37,9 @@ struct BoxNode {
   std::int32_t child[2] = {-1, -1};
 };
 
+/// Nodes from the root to the deepest leaf; 0 for none. The root is nodes[0], children come after their parents.
+int depth_of(const std::vector<BoxNode>& nodes);
+
 /// Flattens the tree whose root is nodes[0]: children of a node side by side, near the top of the tree first. An empty list is
 /// the tree without leaves. Throws std::runtime_error where it is deeper than max_depth or a box passes 65535 blocks.
 BoxTree flatten(const std::vector<BoxNode>& nodes);

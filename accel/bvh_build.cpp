@@ -151,12 +151,4 @@ std::vector<BoxNode> median_hierarchy(const std::vector<BlockBox>& boxes) {
   return nodes;
 }
 
-int depth_of(const std::vector<BoxNode>& nodes) {
-  std::vector<int> levels(nodes.size(), 1);
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    for (const std::int32_t child : nodes[n].child)
-      if (child >= 0) levels[std::size_t(child)] = levels[n] + 1;
-  return nodes.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
-}
-
 }  // namespace quincunx

@@ -17,7 +17,4 @@ std::vector<BoxNode> sah_hierarchy(const std::vector<BlockBox>& boxes, int max_d
 /// root.
 std::vector<BoxNode> median_hierarchy(const std::vector<BlockBox>& boxes);
 
-/// Nodes from the root to the deepest leaf; 0 for none. Children come after their parents.
-int depth_of(const std::vector<BoxNode>& nodes);
-
 }  // namespace quincunx

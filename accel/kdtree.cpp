@@ -19,18 +19,6 @@ KdRules rules_of(const KdTree::Config& config, const Classification& blocks, con
   return {.least_volume = std::max<std::int64_t>(share, 1)};
 }
 
-/// Nodes from the root to the deepest leaf, of a list with every node before its children.
-int depth_of(const std::vector<BoxNode>& nodes) {
-  std::vector<int> level(nodes.size(), 1);
-  int depth = 0;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    depth = std::max(depth, level[n]);
-    for (const std::int32_t child : nodes[n].child)
-      if (child >= 0) level[std::size_t(child)] = level[n] + 1;
-  }
-  return depth;
-}
-
 /// Appends the leaves below nodes[number] in the order of every ray from `eye`, in blocks.
 void append_sorted(const std::vector<BoxNode>& nodes, std::int32_t number, const glm::dvec3& eye, std::vector<std::int32_t>& order) {
   const BoxNode& node = nodes[std::size_t(number)];

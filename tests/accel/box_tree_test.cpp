@@ -43,6 +43,12 @@ TEST(BoxTree, PacksTheCornersAndTheNumberOfTheChildrenIntoFourWords) {
   EXPECT_EQ(tree.depth, 2);
 }
 
+TEST(BoxTree, ADepthCountsTheNodesFromTheRootToTheDeepestLeaf) {
+  EXPECT_EQ(depth_of({}), 0);
+  EXPECT_EQ(depth_of(chain(0)), 1);
+  EXPECT_EQ(depth_of(chain(5)), 6);
+}
+
 TEST(BoxTree, WithoutNodesItIsTwoLeavesThatAreNotThere) {
   const BoxTree tree = flatten({});
   ASSERT_EQ(tree.nodes.size(), 2u);
