@@ -58,9 +58,8 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   };
   app.add_option_function<std::vector<std::string>>(
          "--cluster", cluster, "Of bvh: merge active blocks, to cubes (the published way; if nothing is named) or boxes")
-      ->type_name("{none,cubes,boxes}")
+      ->type_name("{none,cubes,boxes}=none")  // not default_str, which the parser takes for the flag by itself
       ->expected(0, 1)
-      ->default_str("none")
       ->group(group);
   const auto edge = [&flags](const std::string& text) {
     flags.config.max_cluster = int(parse_integer(text, "--max-cluster", 1, 256));

@@ -126,7 +126,7 @@ TEST_F(Errors, TellHowToMakeABccVolumeOfACartesianOne) {
 
 TEST_F(Errors, NameAFlagsBadValue) {
   expect_refused({"render", bcc, "-o", out, "--iso", "nan"}, {"--iso", "'nan'", "finite number"});
-  expect_refused(render({"--skip", "octree"}), {"--skip", "'octree'", "none, grid"});
+  expect_refused(render({"--skip", "quadtree"}), {"--skip", "'quadtree'", "auto, none, grid"});
   expect_refused({"eval", bcc, "--points", points, "--precision", "half"}, {"--precision", "'half'", "double, float"});
 }
 

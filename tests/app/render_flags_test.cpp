@@ -71,7 +71,7 @@ TEST(RenderFlags, OutOfRangeAreNamedWithWhatWasFoundAndExpected) {
                                                     {"--elevation", "91", "at most 90"},
                                                     {"--color", "red", "#rrggbb"},
                                                     {"--background", "#12345", "#rrggbb"},
-                                                    {"--skip", "octree", "none, grid"},
+                                                    {"--skip", "quadtree", "auto, none, grid"},
                                                     {"--block", "12", "power of two"},
                                                     {"--block", "512", "256"},
                                                     {"--cell-test", "maybe", "on, off"},
