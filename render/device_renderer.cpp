@@ -16,9 +16,10 @@ constexpr int kTile = 8;                     // pixels of a group's edge
 constexpr int kMaxCoefficientBuffers = 8;    // bindings of coefficients.glsl
 constexpr std::int64_t kBandPixels = 1 << 21;  // of one dispatch at most, so that progress and Ctrl-C come through
 constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
-constexpr std::uint64_t kRayBytes = 8;         // of the list of rays.glsl
+constexpr std::uint64_t kRayBytes = 16;        // of the list of rays.glsl
 constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
 constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
+constexpr std::uint32_t kRaysPerLane = 16;     // of the seeking pass, one after another, on a CPU
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& v) {
@@ -176,6 +177,7 @@ gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Ba
 TraceParameters DeviceRenderer::make_parameters(const Scene& scene) {
   TraceParameters p = trace_parameters(scene, *coefficients_);
   skipping_.set_parameters(p);
+  p.bricks.w = int(rays_per_lane());
   parameters_ = gpu::create_buffer(device_, sizeof p, gpu::BufferUse::uniform, "parameters");
   return p;
 }
@@ -184,16 +186,24 @@ void DeviceRenderer::finish_compiling(const Kernels& kernels, const Scene& scene
   TraceParameters p = make_parameters(scene);
   p.picture = ivec4(scene.width, scene.height, 0, 0);
   gpu::upload(device_, parameters_, std::as_bytes(std::span(&p, 1)));
-  gpu::dispatch(device_, kernels.enter, resources(kernels.enter, band), {}, 1);
-  gpu::dispatch(device_, kernels.trace, resources(kernels.trace, band), {}, 1);
+  for (const KernelPass& pass : kernels) gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, 1);
+}
+
+std::uint32_t DeviceRenderer::rays_per_lane() const {
+  // A CPU has few lanes, and all of them are as slow as the slowest; a GPU wants many groups.
+  return gpu::info(device_).type == "CPU" ? kRaysPerLane : 1;
 }
 
 double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, int width, int rows) {
   std::uint32_t rays = 0;
   gpu::upload(device_, band.rays, std::as_bytes(std::span(&rays, 1)));
-  double ms = gpu::dispatch(device_, kernels.enter, resources(kernels.enter, band), {}, (width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+  const gpu::Pipeline& enter = kernels.front().pipeline;
+  double ms = gpu::dispatch(device_, enter, resources(enter, band), {}, (width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
   gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
-  ms += gpu::dispatch(device_, kernels.trace, resources(kernels.trace, band), {}, (rays + kTraceGroup - 1) / kTraceGroup);
+  for (const KernelPass& pass : std::span(kernels).subspan(1)) {
+    const std::uint32_t group = kTraceGroup * (pass.pass == Pass::seek ? rays_per_lane() : 1);
+    ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+  }
   return ms;
 }
 

@@ -51,6 +51,7 @@ class DeviceRenderer final : public Renderer {
   TraceParameters make_parameters(const Scene& scene);
   /// Runs both kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
+  std::uint32_t rays_per_lane() const;
   double trace_band(const Kernels& kernels, const Band& band, int width, int rows);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   void count_costs(Request request, RenderStats& stats, const Progress& progress);

@@ -39,11 +39,28 @@ constexpr Part kParts[] = {
      "the coefficients pass the device's limit for one buffer", "the coefficients fit one buffer"},
 };
 
+const char* file_of(Pass pass) {
+  switch (pass) {
+    case Pass::enter: return "enter.comp";
+    case Pass::trace: return "trace.comp";
+    case Pass::seek: return "seek.comp";
+    case Pass::shade: return "shade.comp";
+    case Pass::traverse: return "traverse.comp";
+  }
+  return "";
+}
+
 }  // namespace
+
+std::vector<Pass> passes(const KernelVariant& variant) {
+  if (variant.stub) return {Pass::enter, Pass::traverse};
+  if (variant.intersect == Intersect::exact && !variant.composite) return {Pass::enter, Pass::seek, Pass::shade};
+  return {Pass::enter, Pass::trace};
+}
 
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
   gpu::KernelSource source;
-  source.file = pass == Pass::enter ? "enter.comp" : variant.stub ? "traverse.comp" : "trace.comp";
+  source.file = file_of(pass);
   for (const Part& part : kParts)
     if (part.define && part.wanted(variant)) source.defines.emplace_back(part.define, "1");
   source.defines.emplace_back("ISOVALUES", variant.many_isovalues ? "2" : "1");

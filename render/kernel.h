@@ -27,8 +27,13 @@ struct KernelVariant {
   auto operator<=>(const KernelVariant&) const = default;
 };
 
-/// The passes of a picture: rays go to their first cell that may matter, and those that have one are traced.
-enum class Pass { enter, trace };
+/// The passes of a picture. Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
+/// (trace); or, where their first root is all there is to find, by one that finds it (seek) and one that shades it; or they only
+/// walk on (traverse).
+enum class Pass { enter, trace, seek, shade, traverse };
+
+/// Those that `variant` has, in order.
+std::vector<Pass> passes(const KernelVariant& variant);
 
 /// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);

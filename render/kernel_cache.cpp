@@ -15,7 +15,8 @@ const Kernels& KernelCache::kernels(const KernelVariant& variant, double& compil
   const auto found = kernels_.find(variant);
   if (found != kernels_.end()) return found->second;
   const Stopwatch watch;
-  Kernels made{make_pipeline(*device_, variant, Pass::enter), make_pipeline(*device_, variant, Pass::trace)};
+  Kernels made;
+  for (const Pass pass : passes(variant)) made.push_back({pass, make_pipeline(*device_, variant, pass)});
   compile_ms += watch.ms();
   return kernels_.emplace(variant, std::move(made)).first->second;
 }

@@ -3,16 +3,20 @@
 
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "gpu/gpu.h"
 #include "render/kernel.h"
 
 namespace quincunx {
 
-/// The pipelines of a picture's passes.
-struct Kernels {
-  gpu::Pipeline enter, trace;
+/// A pass of a picture, ready to run.
+struct KernelPass {
+  Pass pass;
+  gpu::Pipeline pipeline;
 };
+/// Those of a variant, in order; the first one enters.
+using Kernels = std::vector<KernelPass>;
 
 class KernelCache {
  public:

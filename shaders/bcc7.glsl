@@ -54,6 +54,18 @@ AxisOrder axis_order(vec3 u) {
   r.middle_y = !r.first_y && !r.last_y;
   return r;
 }
+// As a number below 16, and back.
+uint order_code(AxisOrder r) { return (r.first_x ? 1u : 0u) | (r.first_y ? 2u : 0u) | (r.last_x ? 4u : 0u) | (r.last_y ? 8u : 0u); }
+AxisOrder coded_order(uint code) {
+  AxisOrder r;
+  r.first_x = (code & 1u) != 0u;
+  r.first_y = (code & 2u) != 0u;
+  r.last_x = (code & 4u) != 0u;
+  r.last_y = (code & 8u) != 0u;
+  r.middle_x = !r.first_x && !r.last_x;
+  r.middle_y = !r.first_y && !r.last_y;
+  return r;
+}
 vec3 in_order(AxisOrder r, vec3 v) {
   return vec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
               r.last_x ? v.x : (r.last_y ? v.y : v.z));

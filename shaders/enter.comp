@@ -14,13 +14,12 @@ void main() {
   ivec2 pixel = lane_pixel();
   bool inside = in_picture(pixel);
   Ray ray = make_ray(pixel);
-  Walk walk = begin_walk(ray, ray.begin);
-  bool found = find_cell(ray, walk, inside && ray.begin < ray.end);
-  append_ray(found, PendingRay(pixel, walk.t));
+  Walk walk = begin_walk(ray, ray.begin, ray.begin);
+  bool found = find_cell(ray, walk, inside && ray.begin < ray.end, 0u);
+  append_ray(found, PendingRay(pixel, walk.t, walk_until(walk)));
   if (inside && !found) write_pixel(pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));
 #ifdef COST
   // The next pass looks at the cell found again.
-  uint again = found ? 1u : 0u;
-  if (inside) write_cost(pixel, vec3(0.0, float(walk.steps - again), float(walk.intervals - min(again, walk.intervals))));
+  if (inside) write_cost(pixel, vec3(0.0, float(walk.steps - (found ? 1u : 0u)), float(walk.intervals)));
 #endif
 }

@@ -1,13 +1,6 @@
 // From a root along the ray to a hit: its depth and its normal, as exact as a float can hold.
 #include "exact_ray.glsl"
 
-struct Root {
-  ivec3 cell;
-  AxisOrder order;  // the piece it lies in
-  float t;
-  int surface;
-};
-
 #ifdef NORMAL_CENTRAL
 // Central differences of the spline, half-step `delta` along each lattice axis, inside the domain.
 vec3 central_gradient(Ray ray, float t) {

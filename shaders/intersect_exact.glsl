@@ -45,19 +45,21 @@ Caster begin_caster(Ray ray, Walk walk) {
   return caster;
 }
 
-// Where `wanted`, makes the next cell that may matter the current one, or ends the ray.
-void enter_cell(Ray ray, inout Caster caster, bool wanted) {
-  bool found = find_cell(ray, caster.walk, wanted);
+// Where `wanted`, makes the next cell that may matter the current one, or ends the ray, or gets nearer to either. `break_at`: as for
+// find_cell.
+void enter_cell(Ray ray, inout Caster caster, bool wanted, uint break_at) {
+  bool found = find_cell(ray, caster.walk, wanted, break_at);
   ivec3 cell = caster.walk.cell;
   float leave = exit_time(ray, cell, 1);
   float entry = caster.walk.t;
-  caster.live = caster.live && (!wanted || found);
-  caster.cell = wanted ? cell : caster.cell;
-  caster.entry = wanted ? entry : caster.entry;
-  caster.len = wanted ? max(min(leave, ray.end) - entry, 0.0) : caster.len;
-  caster.done = wanted ? 0.0 : caster.done;
-  caster.walk.t = wanted ? leave : caster.walk.t;
-  caster.walk.cell = wanted ? next_cell(ray, cell, leave) : caster.walk.cell;
+  caster.live = caster.live && (!wanted || found || entry < ray.end);
+  caster.need_cell = caster.need_cell && !found;
+  caster.cell = found ? cell : caster.cell;
+  caster.entry = found ? entry : caster.entry;
+  caster.len = found ? max(min(leave, ray.end) - entry, 0.0) : caster.len;
+  caster.done = found ? 0.0 : caster.done;
+  caster.walk.t = found ? leave : caster.walk.t;
+  caster.walk.cell = found ? next_cell(ray, cell, leave) : caster.walk.cell;
 }
 
 // Where the piece that begins at `done` ends.
@@ -124,55 +126,48 @@ float piece_root(int level, float b[5], bool crossed, out int surface) {
 #endif
 
 // Where `wanted`, the next hit from where the caster stands; false where there is none, or none yet (the caster is live then:
-// call again).
-bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
-  bool hit = false;
+// call again). `others`: whether there is work for lanes that do not seek.
+bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root root) {
   bool seeking = wanted && caster.live;
   float b[5] = float[5](1.0, 1.0, 1.0, 1.0, 1.0);
   float start = 0.0;
   float width = 0.0;
-  float reached = 0.0;
   bool crossed = false;
-  root.surface = 0;
+  bool found = false;
+  uint seekers = subgroupBallotBitCount(subgroupBallot(seeking));
   do {
-    bool found = false;
-    do {
-      enter_cell(ray, caster, seeking && caster.need_cell);
-      seeking = seeking && caster.live;
-      SplineCell cell = spline_cell(caster.cell, ray.centre);
-      vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
-      vec3 along = cell.sign * ray.d;
-      float end = piece_end(spline_cuts(from, along, caster.len), caster.len, caster.done);
-      float span = end - caster.done;
-      AxisOrder order = axis_order(from + (caster.done + 0.5 * span) * along);
-      float piece[5];
-      spline_restrict(cell, order, from + caster.done * along, span * along, EXACT_OFFSET, piece);
+    enter_cell(ray, caster, seeking && caster.need_cell, seekers / 4u);
+    seeking = seeking && caster.live;
+    bool looking = seeking && !caster.need_cell;
+    SplineCell cell = spline_cell(caster.cell, ray.centre);
+    vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
+    vec3 along = cell.sign * ray.d;
+    float end = piece_end(spline_cuts(from, along, caster.len), caster.len, caster.done);
+    float span = end - caster.done;
+    AxisOrder order = axis_order(from + (caster.done + 0.5 * span) * along);
+    float piece[5];
+    spline_restrict(cell, order, from + caster.done * along, span * along, EXACT_OFFSET, piece);
 #ifdef COST
-      caster.evaluations += seeking ? 1u : 0u;
+    caster.evaluations += looking ? 1u : 0u;
 #endif
-      caster.level = seeking && caster.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.level;
+    caster.level = looking && caster.level == LEVEL_UNKNOWN ? level_of(piece[0] + EXACT_OFFSET) : caster.level;
 
-      // Keep the piece where a root may be; go on to the next one elsewhere.
-      bool behind_hit = caster.entry + caster.done - caster.last_hit < HIT_BAND;
-      found = found || (seeking && piece_may_cross(caster.level, piece, behind_hit));
-      for (int i = 0; i < 5; ++i) b[i] = seeking ? piece[i] : b[i];
-      start = seeking ? caster.done : start;
-      width = seeking ? span : width;
-      crossed = seeking ? behind_hit : crossed;
-      caster.done = seeking ? end : caster.done;
-      caster.need_cell = seeking ? !(caster.len > end + 1e-6) : caster.need_cell;
-      caster.live = caster.live && (!seeking || !caster.need_cell || caster.walk.t < ray.end);
-      seeking = seeking && !found && caster.live;
-    } while (keep_seeking(seeking, found));
+    // Keep the piece where a root may be; go on to the next one elsewhere.
+    bool behind_hit = caster.entry + caster.done - caster.last_hit < HIT_BAND;
+    found = found || (looking && piece_may_cross(caster.level, piece, behind_hit));
+    for (int i = 0; i < 5; ++i) b[i] = looking ? piece[i] : b[i];
+    start = looking ? caster.done : start;
+    width = looking ? span : width;
+    crossed = looking ? behind_hit : crossed;
+    caster.done = looking ? end : caster.done;
+    caster.need_cell = looking ? !(caster.len > end + 1e-6) : caster.need_cell;
+    caster.live = caster.live && (!looking || !caster.need_cell || caster.walk.t < ray.end);
+    seeking = seeking && !found && caster.live;
+  } while (keep_seeking(seeking, found, others, seekers));
 
-    int surface;
-    float r = piece_root(caster.level, b, crossed, surface);
-    bool is_root = found && r >= 0.0;
-    hit = hit || is_root;
-    root.surface = is_root ? surface : root.surface;
-    reached = is_root ? start + r * width : reached;
-    seeking = found && !is_root && caster.live;
-  } while (subgroupAny(seeking));
+  float r = piece_root(caster.level, b, crossed, root.surface);
+  bool hit = found && r >= 0.0;
+  float reached = hit ? start + r * width : 0.0;
 
   SplineCell cell = spline_cell(caster.cell, ray.centre);
   root.cell = caster.cell;

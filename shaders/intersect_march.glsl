@@ -40,7 +40,7 @@ float sample_time(Ray ray, float k) {
 
 // Where `wanted`, makes the next stretch that may matter the current one: a cell where cells are tested, else an interval of the structure.
 void enter_interval(Ray ray, inout Caster caster, bool wanted) {
-  bool found = find_cell(ray, caster.walk, wanted);
+  bool found = find_cell(ray, caster.walk, wanted, 0u);
 #ifdef CELL_TEST
   float leave = min(exit_time(ray, caster.walk.cell, 1), ray.end);
 #elif defined(SKIP)
@@ -85,11 +85,12 @@ float refine_root(Ray ray, float a, float fa, float b, float fb, float isovalue,
   return b;
 }
 
-bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
+bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root root) {
   bool hit = false;
   bool seeking = wanted && caster.live;
   float a = 0.0, fa = 0.0, b = 0.0, fb = 0.0;
   int surface = 0;
+  uint seekers = 0u;
   do {
     enter_interval(ray, caster, seeking && caster.need_interval);
     seeking = seeking && caster.live;
@@ -116,7 +117,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, out Root root) {
     caster.need_interval = on ? t >= caster.leave : caster.need_interval && !seeking;
     caster.live = caster.live && (!on || t < ray.end);
     seeking = on && caster.live;
-  } while (keep_seeking(seeking, hit));
+  } while (keep_seeking(seeking, hit, others, seekers));
 
   float isovalue = scaled_isovalue(surface);
   uint evaluations = 0u;

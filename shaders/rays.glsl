@@ -3,24 +3,30 @@
 
 struct PendingRay {
   ivec2 pixel;
-  float t;  // where the ray enters its first cell that may matter
+  float t;      // where the ray enters its first cell that may matter
+  float until;  // how far the structure's answer reaches
 };
 
 layout(std430, binding = 8) buffer Rays {
   uint ray_count;
   uint ray_padding[3];
-  uvec2 ray_list[];  // pixel x + 2^16 y, t
+  uvec4 ray_list[];  // pixel x + 2^16 y; t, until, 0, or what became of the ray (found.glsl)
 };
 
-// Whether a subgroup's loop goes on: as long as a lane seeks, or, where lanes that found something have more to seek
-// behind it, as long as more lanes seek than wait.
-bool keep_seeking(bool seeking, bool waiting) {
+// Whether a subgroup's loop goes on: as long as a lane seeks; but only as long as more lanes seek than wait where those have
+// something else to do, be it behind what they found (surfaces that let something through) or, with `others`, on other rays.
+// `seekers` becomes the number of lanes that seek.
+bool keep_seeking(bool seeking, bool found, bool others, inout uint seekers) {
+  seekers = subgroupBallotBitCount(subgroupBallot(seeking));
 #ifdef COMPOSITE
-  return subgroupBallotBitCount(subgroupBallot(seeking)) > subgroupBallotBitCount(subgroupBallot(waiting));
+  return seekers > subgroupBallotBitCount(subgroupBallot(found));
 #else
-  return subgroupAny(seeking);
+  return seekers > (others ? gl_SubgroupSize / 2u : 0u);
 #endif
 }
+
+uint pack_pixel(ivec2 pixel) { return uint(pixel.x) | uint(pixel.y) << 16; }
+ivec2 unpack_pixel(uint packed) { return ivec2(packed & 0xffffu, packed >> 16); }
 
 // Appends the rays of the subgroup's lanes that have one, in the order of lanes.
 void append_ray(bool have, PendingRay ray) {
@@ -28,10 +34,10 @@ void append_ray(bool have, PendingRay ray) {
   uint first = 0u;
   if (subgroupElect()) first = atomicAdd(ray_count, subgroupBallotBitCount(ballot));
   uint number = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
-  if (have) ray_list[number] = uvec2(uint(ray.pixel.x) | uint(ray.pixel.y) << 16, floatBitsToUint(ray.t));
+  if (have) ray_list[number] = uvec4(pack_pixel(ray.pixel), floatBitsToUint(ray.t), floatBitsToUint(ray.until), 0u);
 }
 
 PendingRay pending_ray(uint number) {
-  uvec2 r = ray_list[number];
-  return PendingRay(ivec2(r.x & 0xffffu, r.x >> 16), uintBitsToFloat(r.y));
+  uvec4 r = ray_list[number];
+  return PendingRay(unpack_pixel(r.x), uintBitsToFloat(r.y), uintBitsToFloat(r.z));
 }

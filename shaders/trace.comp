@@ -1,5 +1,5 @@
 #version 460
-// The tracing pass: the rays that may meet something, one a lane. Composed of what the scene asks for
+// The tracing pass where rays go on behind a hit, and for marching: the rays that may meet something, one a lane. Composed of what the scene asks for
 // (render/kernel.cpp lists the parts).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -13,6 +13,7 @@
 #include "walk.glsl"
 #include "picture.glsl"
 #include "surfaces.glsl"
+#include "root.glsl"
 #include "hit.glsl"
 #include "rays.glsl"
 #include "intersect.glsl"
@@ -22,19 +23,19 @@ void main() {
   bool mine = number < ray_count;
   PendingRay pending = pending_ray(mine ? number : 0u);
   Ray ray = make_ray(pending.pixel);
-  Caster caster = begin_caster(ray, begin_walk(ray, pending.t));
+  Caster caster = begin_caster(ray, begin_walk(ray, pending.t, pending.until));
   Seen seen = nothing_seen();
   ExactRay exact = make_exact_ray(pending.pixel);
   Root root;
 #ifdef COMPOSITE
   bool seeking = mine;
   do {
-    bool hit = next_hit(ray, caster, seeking, root);
+    bool hit = next_hit(ray, caster, seeking, false, root);
     if (hit) see_root(seen, ray, exact, root);
     seeking = seeking && caster.live && seen.transmittance > 0.0;
   } while (subgroupAny(seeking));
 #else
-  if (next_hit(ray, caster, mine, root)) see_root(seen, ray, exact, root);
+  if (next_hit(ray, caster, mine, false, root)) see_root(seen, ray, exact, root);
 #endif
   if (mine) {
     write_pixel(pending.pixel, vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance), seen.first);

@@ -15,7 +15,7 @@
 void traverse(Ray ray, inout Walk walk, bool mine) {
   bool seeking = mine;
   do {
-    bool found = find_cell(ray, walk, seeking);
+    bool found = find_cell(ray, walk, seeking, 0u);
 #if defined(CELL_TEST)
     float leave = exit_time(ray, walk.cell, 1);
 #elif defined(SKIP)
@@ -36,7 +36,7 @@ void main() {
   bool mine = number < ray_count;
   PendingRay pending = pending_ray(mine ? number : 0u);
   Ray ray = make_ray(pending.pixel);
-  Walk walk = begin_walk(ray, pending.t);
+  Walk walk = begin_walk(ray, pending.t, pending.until);
   traverse(ray, walk, mine);
   if (mine) {
     write_pixel(pending.pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));

@@ -15,21 +15,30 @@ struct Walk {
 #endif
 };
 
-// A walk from t on, the structure still to be asked.
-Walk begin_walk(Ray ray, float t) {
+// A walk from t on. Everything until `until` may matter; behind it the structure is to be asked.
+Walk begin_walk(Ray ray, float t, float until) {
   Walk walk;
   walk.t = t;
   walk.cell = cell_at(ray, t);
 #ifdef SKIP
   walk.skip = begin_skip();
   walk.from = t;
-  walk.until = t;
+  walk.until = until;
 #endif
 #ifdef COST
   walk.steps = 0u;
   walk.intervals = 0u;
 #endif
   return walk;
+}
+
+// How far the structure's last answer reaches.
+float walk_until(Walk walk) {
+#ifdef SKIP
+  return walk.until;
+#else
+  return walk.t;
+#endif
 }
 
 #ifdef CELL_TEST
@@ -40,15 +49,23 @@ uvec2 occupancy_brick(ivec3 cell) {
   ivec3 brick = cell >> 2;
   return texelFetch(occupancy, (brick.z * parameters.bricks.y + brick.y) * parameters.bricks.x + brick.x).rg;
 }
-bool occupied(uvec2 brick, ivec3 cell) {
-  ivec3 r = cell & 3;
-  uint word = (r.z & 2) != 0 ? brick.y : brick.x;
-  return ((word >> ((r.z & 1) * 16 + r.y * 4 + r.x)) & 1u) != 0u;
+// The bits of the two z planes that hold the cell.
+uint occupied_planes(uvec2 brick, ivec3 cell) { return (cell.z & 2) != 0 ? brick.y : brick.x; }
+bool occupied(uint planes, ivec3 cell) {
+  ivec3 r = cell & ivec3(3, 3, 1);
+  return ((planes >> (r.z * 16 + r.y * 4 + r.x)) & 1u) != 0u;
+}
+// The largest empty cube around an empty cell whose edge is a power of two: 1, 2, or 4 for the whole brick.
+int empty_cube(uvec2 brick, uint planes, ivec3 cell) {
+  ivec3 r = cell & 2;
+  bool pair = (planes & (0x00330033u << (r.y * 4 + r.x))) == 0u;
+  return (brick.x | brick.y) == 0u ? 4 : pair ? 2 : 1;
 }
 #endif
 
-// Where `wanted`, moves to the next cell that may matter, from walk.cell on; false where the ray ends before one.
-bool find_cell(Ray ray, inout Walk walk, bool wanted) {
+// Where `wanted`, moves to the next cell that may matter, from walk.cell on. False where the ray ends before one, or (walk.t is
+// before the end then: call again) where the walk is broken off because no more than `break_at` lanes of the subgroup still walk.
+bool find_cell(Ray ray, inout Walk walk, bool wanted, uint break_at) {
 #ifndef SKIP
 #ifdef COST
   walk.steps += wanted ? 1u : 0u;
@@ -71,10 +88,10 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
 #endif
 #ifdef CELL_TEST
     uvec2 brick = occupancy_brick(walk.cell);
-    found = found || (matters && occupied(brick, walk.cell));
-    bool whole_brick = (brick.x | brick.y) == 0u;
-    ivec3 low = whole_brick ? walk.cell & ~3 : walk.cell;
-    float leave = exit_time(ray, low, whole_brick ? 4 : 1);
+    uint planes = occupied_planes(brick, walk.cell);
+    found = found || (matters && occupied(planes, walk.cell));
+    int size = empty_cube(brick, planes, walk.cell);
+    float leave = exit_time(ray, walk.cell & ~(size - 1), size);
     leave = matters ? min(leave, walk.until) : walk.from;
 #else
     found = found || matters;
@@ -85,7 +102,7 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted) {
     walk.t = move ? leave : walk.t;
     walk.cell = move ? next : walk.cell;
     seeking = seeking && !found && walk.t < ray.end;
-  } while (subgroupAny(seeking));
+  } while (break_at == 0u ? seeking : subgroupBallotBitCount(subgroupBallot(seeking)) > break_at);
   return found;
 #endif
 }

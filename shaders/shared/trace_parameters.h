@@ -19,7 +19,7 @@
 //      352  strides                                                       y, z, coset, number of sample (0; 0,0,0)
 //      368  picture                                                       width, height, first row, rows of this dispatch
 //      384  blocks                                                        blocks per axis of the skipping structure; .w: log2 of their edge
-//      400  bricks                                                        occupancy bricks per axis; .w unused
+//      400  bricks                                                        occupancy bricks per axis; .w: rays a lane of the seeking pass
 //      416  structure                                                     the skipping structure's own numbers (its GLSL twin says which)
 #ifdef __cplusplus
 #pragma once

@@ -76,7 +76,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
   for (const KernelVariant& v : all_variants()) {
     SCOPED_TRACE(describe(v));
     std::set<std::string> names, bound;
-    for (const Pass pass : {Pass::enter, Pass::trace}) {
+    for (const Pass pass : passes(v)) {
       const std::vector<std::uint32_t> spirv = gpu::compile(kernel_files(v), kernel_source(v, pass));
       names.merge(names_in(spirv));
       for (const gpu::Binding& b : gpu::reflect(spirv).bindings) bound.insert(b.name);
@@ -97,7 +97,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
 
 TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
   const KernelVariant v;
-  const gpu::Reflection reflection = gpu::reflect(gpu::compile(kernel_files(v), kernel_source(v, Pass::trace)));
+  const gpu::Reflection reflection = gpu::reflect(gpu::compile(kernel_files(v), kernel_source(v, Pass::seek)));
   std::map<std::string, std::size_t> offsets;
   for (const gpu::BlockMember& m : reflection.members)
     if (m.block == "parameters" || m.block == "TraceParameters") offsets[m.name] = m.offset;

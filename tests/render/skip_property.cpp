@@ -63,11 +63,11 @@ void main() {
   Ray ray = random_ray();
   bool alive = ray.begin < ray.end;
   uint stretches = 0u, violations = 0u;
-  Walk walk = begin_walk(ray, ray.begin);
+  Walk walk = begin_walk(ray, ray.begin, ray.begin);
   bool seeking = alive;
   do {
     float start = walk.t;
-    bool found = find_cell(ray, walk, seeking);
+    bool found = find_cell(ray, walk, seeking, 0u);
     float end = found ? walk.t : ray.end;
     bool skipped = seeking && end > start;
     bool side = above(ray, start);

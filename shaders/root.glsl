@@ -1,0 +1,23 @@
+// A root along the ray, and how it is noted until its pixel is shaded.
+struct Root {
+  ivec3 cell;
+  AxisOrder order;  // the piece it lies in
+  float t;
+  int surface;
+};
+
+// Three numbers of ray_list, behind the pixel: t; cell x, y; cell z, order (4 bits), surface (8 bits; 255: no root). Cells are
+// below 2^16 a side.
+const uint NO_ROOT = 255u;
+
+uvec3 pack_root(bool hit, Root root) {
+  uint surface = hit ? uint(root.surface) : NO_ROOT;
+  return uvec3(floatBitsToUint(root.t), uint(root.cell.x) | uint(root.cell.y) << 16, uint(root.cell.z) | order_code(root.order) << 16 | surface << 24);
+}
+bool unpack_root(uvec3 packed, out Root root) {
+  root.t = uintBitsToFloat(packed.x);
+  root.cell = ivec3(packed.y & 0xffffu, packed.y >> 16, packed.z & 0xffffu);
+  root.order = coded_order((packed.z >> 16) & 15u);
+  root.surface = int(packed.z >> 24);
+  return uint(root.surface) != NO_ROOT;
+}
