@@ -28,53 +28,68 @@ class EverySetting : public DeviceTest {
     return request;
   }
 
-  /// Compares every structure with none, block by block, with and without the cell test in turns.
-  void compare_all(const AdversarialVolume& c, const Renderer::Request& view, const std::vector<int>& blocks) {
-    bool cell_test = false;
-    DeviceRenderer renderer(test_kernels(), c.volume, {});
+  /// A volume and a request for it, without how to skip.
+  struct Scenery {
+    std::string name;
+    Volume volume;
+    Renderer::Request request;
+  };
+
+  /// Compares every structure with none, block by block, with and without the cell test in turns. Kernels are changed as rarely as
+  /// can be: drivers forget those that they have not used for a while.
+  void compare_all(const std::vector<Scenery>& sceneries, const std::vector<int>& blocks) {
+    std::vector<std::unique_ptr<DeviceRenderer>> renderers;
+    std::vector<Frame> truths;
     RenderStats stats;
-    Renderer::Request request = view;
-    request.skip.structure = "none";
-    const Frame truth = renderer.render(request, stats);
-    for (const int block : blocks) {
-      cell_test = !cell_test;  // each label, an even number of them, has both
-      for (const std::string_view label : skipping_labels()) {
-        cell_test = !cell_test;
-        request.skip = labelled_skip(label, {.block = block, .cell_test = cell_test});
-        SCOPED_TRACE(c.name + ", " + std::string(label) + ", block " + std::to_string(block) + (cell_test ? ", cells tested" : ""));
-        expect_same_picture(renderer.render(request, stats), truth);
-      }
+    for (const Scenery& s : sceneries) {
+      renderers.push_back(std::make_unique<DeviceRenderer>(test_kernels(), s.volume, Renderer::Config{}));
+      Renderer::Request request = s.request;
+      request.skip.structure = "none";
+      truths.push_back(renderers.back()->render(request, stats));
     }
+    for (const std::string_view label : skipping_labels())
+      for (const bool cell_test : {false, true})
+        for (std::size_t n = 0; n < sceneries.size(); ++n)
+          for (std::size_t b = cell_test == (n % 2 == 0); b < blocks.size(); b += 2) {
+            Renderer::Request request = sceneries[n].request;
+            request.skip = labelled_skip(label, {.block = blocks[b], .cell_test = cell_test});
+            SCOPED_TRACE(sceneries[n].name + ", " + std::string(label) + ", block " + std::to_string(blocks[b]) + (cell_test ? ", cells tested" : ""));
+            expect_same_picture(renderers[n]->render(request, stats), truths[n]);
+          }
   }
 };
 
 TEST_F(EverySetting, ShowsTheFirstRootsThatNoneShows) {
-  int view = 0;
-  for (const AdversarialVolume& c : adversarial_volumes()) compare_all(c, view_of(c, view++ % 3, 24), {2, 4, 8, 16, 32, 64});
+  std::vector<Scenery> all;
+  for (const AdversarialVolume& c : adversarial_volumes()) all.push_back({c.name, c.volume, view_of(c, int(all.size()) % 3, 24)});
+  compare_all(all, {2, 4, 8, 16, 32, 64});
 }
 
 TEST_F(EverySetting, ShowsTheSurfacesBehindEachOtherThatNoneShows) {
-  int view = 1;
+  std::vector<Scenery> all;
   for (const AdversarialVolume& c : adversarial_volumes()) {
-    Renderer::Request request = view_of(c, view++ % 3, 16);
+    Renderer::Request request = view_of(c, int(all.size() + 1) % 3, 20);
     request.scene.isosurfaces = {{c.isovalue, {1, 0, 0}, 0.5}, {0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5}};
-    compare_all(c, request, {2, 8});
+    all.push_back({c.name, c.volume, request});
   }
+  compare_all(all, {1, 4, 2, 16});
 }
 
 TEST_F(EverySetting, ShowsTheMarchedSamplesThatNoneShows) {
-  int view = 2;
+  std::vector<Scenery> all;
   for (const AdversarialVolume& c : adversarial_volumes()) {
-    Renderer::Request request = view_of(c, view++ % 3, 16);
+    Renderer::Request request = view_of(c, int(all.size() + 2) % 3, 24);
     request.scene.intersect = Intersect::march;
     request.scene.step = 0.7;
-    compare_all(c, request, {1, 8});
+    all.push_back({c.name, c.volume, request});
   }
+  compare_all(all, {1, 4, 2, 16});
 }
 
 TEST_F(EverySetting, ShowsTheMarchedLayersThatNoneShowsEvenWhereSamplesMissOne) {
   // Layers thinner than a step: what a skipped block knows of them must not reach the samples.
   const auto layers = [](const glm::dvec3& u) { return std::sin(2.2 * u.x) + 0.5 * std::sin(1.7 * u.y + 0.9 * u.z); };
+  std::vector<Scenery> all;
   for (const AdversarialVolume& c : {AdversarialVolume{"layers", bcc_volume({12, 12, 12}, layers), 0.5}, {"noise", random_volume({12, 12, 12}, 9), 0.7}})
     for (const int view : {0, 1, 2}) {
       Renderer::Request request = view_of(c, view, 32);
@@ -82,8 +97,9 @@ TEST_F(EverySetting, ShowsTheMarchedLayersThatNoneShowsEvenWhereSamplesMissOne) 
       request.scene.step = 0.7;
       request.scene.isosurfaces.push_back({0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5});
       request.scene.isosurfaces.front().opacity = 0.5;
-      compare_all(c, request, {2, 8});
+      all.push_back({c.name, c.volume, request});
     }
+  compare_all(all, {1, 4, 2, 16});
 }
 
 TEST_F(EverySetting, ShowsManySurfacesAtOnceAsNoneDoes) {
@@ -91,7 +107,7 @@ TEST_F(EverySetting, ShowsManySurfacesAtOnceAsNoneDoes) {
   Renderer::Request request = view_of(c, 0, 32);
   request.scene.isosurfaces.clear();
   for (int k = 0; k < 40; ++k) request.scene.isosurfaces.push_back({0.2 + 0.02 * k, {1.0, 0.02 * k, 0.5}, 0.3});
-  compare_all(c, request, {2, 8});
+  compare_all({{c.name, c.volume, request}}, {2, 8});
 }
 
 TEST_F(EverySetting, HoldsNoPointOfTheSurfaceInWhatItSkips) {
@@ -99,10 +115,9 @@ TEST_F(EverySetting, HoldsNoPointOfTheSurfaceInWhatItSkips) {
   std::uint32_t seed = 1;
   for (const std::string_view label : skipping_labels()) {
     SkippedSpace seen;
-    for (const AdversarialVolume& v : adversarial_volumes()) {
-      const SkipConfig config = labelled_skip(label, {.block = 1 << seed % 4, .cell_test = seed / 4 % 2 == 1});
-      seen += look_into_skipped_space(v, config, 8192, seed++);
-    }
+    for (const bool cell_test : {false, true})
+      for (const AdversarialVolume& v : adversarial_volumes())
+        seen += look_into_skipped_space(v, labelled_skip(label, {.block = 1 << seed % 4, .cell_test = cell_test}), 4096, seed++);
     EXPECT_EQ(seen.violations, 0u) << label;
     EXPECT_GT(seen.stretches, seen.rays / 2) << label;
     all += seen;
