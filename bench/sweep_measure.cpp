@@ -59,11 +59,12 @@ void count(Frames& frames, std::size_t setting, std::size_t view, SweepMeasureme
   m.intervals += stats.intervals;
 }
 
-/// The first view once untimed, then each.
+/// The first view once untimed, then each; the structure alone, without the walk over cells that may follow it.
 void walk(Frames& frames, std::size_t setting, std::size_t views, SweepMeasurement& m) {
   for (std::size_t n = 0; n <= views; ++n) {
     Renderer::Request request = frames.request(setting, n == 0 ? 0 : n - 1);
     request.scene.stub_sampling = true;
+    request.skip.cell_test = false;
     request.count_costs = n > 0;
     const RenderStats stats = frames.render(request);
     if (n == 0) continue;

@@ -19,6 +19,7 @@ constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
 constexpr std::uint64_t kRayBytes = 16;        // of the list of rays.glsl
 constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
 constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
+constexpr std::int64_t kMostCells = 65535;     // along an axis: lists of roots and boxes hold 16 bits (root.glsl, box.glsl)
 constexpr std::uint32_t kRaysPerLane = 16;     // of the seeking pass, one after another, on a CPU
 
 template <class T>
@@ -46,6 +47,9 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volum
 // ---- what a request needs ----
 
 DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
+  const glm::i64vec3 cells = domain_max(volume_.lattice, volume_.extents);
+  if (std::max(cells.x, std::max(cells.y, cells.z)) > kMostCells)
+    throw InputError(fmt::format("volume: {} x {} x {} cells; expected at most {} along an axis", cells.x, cells.y, cells.z, kMostCells));
   const glm::i64vec3 p = volume_.extents + std::int64_t(2 * spline_->apron());
   const std::uint64_t count = std::uint64_t(coset_count(volume_.lattice)) * p.x * p.y * p.z;
   if (count > std::uint64_t(std::numeric_limits<std::int32_t>::max()))

@@ -49,7 +49,7 @@ class DeviceRenderer final : public Renderer {
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
   double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
   TraceParameters make_parameters(const Scene& scene);
-  /// Runs both kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
+  /// Runs the kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   std::uint32_t rays_per_lane() const;
   double trace_band(const Kernels& kernels, const Band& band, int width, int rows);

@@ -10,7 +10,7 @@ struct PendingRay {
 layout(std430, binding = 8) buffer Rays {
   uint ray_count;
   uint ray_padding[3];
-  uvec4 ray_list[];  // pixel x + 2^16 y; t, until, 0, or what became of the ray (found.glsl)
+  uvec4 ray_list[];  // pixel x + 2^16 y; t, until, 0, or what became of the ray (root.glsl)
 };
 
 // Whether a subgroup's loop goes on: as long as a lane seeks; but only as long as more lanes seek than wait where those have

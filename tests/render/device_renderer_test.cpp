@@ -170,6 +170,15 @@ TEST_F(DeviceRendererTest, CoefficientsThatNoEightBuffersHoldAreRefused) {
   EXPECT_THROW(renderer.render(request_for(volume, 0.2), stats), gpu::DeviceError);
 }
 
+TEST_F(DeviceRendererTest, MoreCellsAlongAnAxisThanListsCanNumberAreRefused) {
+  const Volume volume = bumpy_volume({1, 1, 32769});
+  DeviceRenderer renderer(test_kernels(), volume, {});
+  RenderStats stats;
+  EXPECT_THROW(renderer.render(request_for(volume, 0.2), stats), InputError);
+  const Volume just = bumpy_volume({1, 1, 32768});
+  EXPECT_NO_THROW(DeviceRenderer(test_kernels(), just, {}).render(request_for(just, 0.2), stats));
+}
+
 TEST_F(DeviceRendererTest, PicturesOverTheLimitOfABufferAreMadeInBands) {
   const Volume volume = bumpy_volume({16, 16, 16});
   Renderer::Request request = request_for(volume, 0.2, 100);
