@@ -27,9 +27,10 @@ gpu::Buffer upload_texels(gpu::Device& device, std::span<const std::byte> bytes,
   return buffer;
 }
 
-/// Whether both say the same of every block; structures that read levels too get a new one where only levels differ.
+/// Whether the same blocks are active in both: levels of the others are nothing to the kernels.
 bool same_blocks(const std::optional<Classification>& a, const Classification& b) {
-  return a && a->block == b.block && a->level == b.level;
+  const auto alike = [](std::uint8_t x, std::uint8_t y) { return (x == Classification::active) == (y == Classification::active); };
+  return a && a->block == b.block && std::ranges::equal(a->level, b.level, alike);
 }
 
 void check_config(const SkipConfig& config) {
