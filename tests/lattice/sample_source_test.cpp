@@ -12,14 +12,14 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// Samples that all differ: their number times 3, less 7.
+/// Samples that all differ: their number times 3, and 7.
 template <class T>
 Volume numbered(LatticeKind lattice, const Extents& extents) {
   Volume v{lattice, extents, {}, std::vector<T>{}, {{"content", "numbers"}}};
   v.world.origin = {1, 2, 3};
   v.world.axes = glm::dmat3(0.5, 0, 0, 0.25, 1, 0, 0, 0, 2);
   auto& samples = std::get<std::vector<T>>(v.samples);
-  for (std::size_t n = 0; n < v.sample_count(); ++n) samples.push_back(T(std::int64_t(3 * n) - 7));
+  for (std::size_t n = 0; n < v.sample_count(); ++n) samples.push_back(T(3 * n + 7));
   return v;
 }
 
@@ -54,29 +54,30 @@ TEST(VolumeSource, TheHeaderSaysEverythingButTheSamples) {
 }
 
 TEST(StreamedSampleRange, IsThatOfTheVolumeOverManyBoxesAndCountsWhatIsNotFinite) {
-  // Three boxes of 64 planes, the last one cut: 128 x 128 x 64 samples are 2^20. Both cosets.
-  Volume whole = numbered<float>(LatticeKind::bcc, {128, 128, 150});
+  // A plane of 700 rows is read as 512 rows of 2048 samples, 2^20, and the rest. Both cosets.
+  Volume whole = numbered<float>(LatticeKind::bcc, {2048, 700, 2});
   auto& samples = std::get<std::vector<float>>(whole.samples);
   const VolumeSource source(whole);
   std::vector<double> fractions;
   SampleRange range = sample_range(source, [&](double fraction) { fractions.push_back(fraction); });
-  EXPECT_EQ(range.min, -7.0);
-  EXPECT_EQ(range.max, double(float(std::int64_t(3 * samples.size()) - 10)));
+  EXPECT_EQ(range.min, 7.0);
+  EXPECT_EQ(range.max, double(float(3 * samples.size() + 4)));
   EXPECT_EQ(range.not_finite, 0u);
   EXPECT_EQ(range.first_not_finite, 0u);
   EXPECT_GE(fractions.size(), 2u);
   EXPECT_EQ(fractions.back(), 1.0);
 
   // The first box holds the first one in its second coset; a later box holds one of the first coset, with a lower number.
-  samples[128 * 128 * 150 + 5] = nan;
-  samples[128 * 128 * 149 + 128 * 3 + 7] = -std::numeric_limits<float>::infinity();
-  samples[128 * 128 * 150 + 128 * 128 * 100] = nan;
+  const std::size_t row = 2048, plane = 700 * row, first = plane + 600 * row + 9;
+  samples[2 * plane + 5] = nan;
+  samples[first] = -std::numeric_limits<float>::infinity();
+  samples[3 * plane + 699 * row] = nan;
   range = sample_range(source);
   const SampleRange expected = sample_range(whole);
   EXPECT_EQ(range.min, expected.min);
   EXPECT_EQ(range.max, expected.max);
   EXPECT_EQ(range.not_finite, 3u);
-  EXPECT_EQ(range.first_not_finite, std::size_t(128 * 128 * 149 + 128 * 3 + 7));
+  EXPECT_EQ(range.first_not_finite, first);
 }
 
 TEST(StreamedSampleRange, OfNothingFiniteIsZero) {
