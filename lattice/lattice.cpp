@@ -23,4 +23,8 @@ glm::i64vec3 domain_max(LatticeKind kind, const Extents& extents) {
   return std::int64_t(lattice_step(kind)) * extents - std::int64_t(1);
 }
 
+glm::i64vec3 cell_count(LatticeKind kind, const Extents& extents) {
+  return glm::max(domain_max(kind, extents), glm::i64vec3(1));
+}
+
 }  // namespace quincunx

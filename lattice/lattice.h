@@ -32,6 +32,14 @@ int lattice_step(LatticeKind kind);
 /// The domain is the box [0, domain_max], to which rays are clipped.
 glm::i64vec3 domain_max(LatticeKind kind, const Extents& extents);
 
+/// Cells (unit cubes of lattice coordinates, lower corner (x,y,z), 0 <= x < cell_count.x ...): those that fill the domain,
+/// and one along a Cartesian axis of one sample, on whose lower face the domain lies.
+glm::i64vec3 cell_count(LatticeKind kind, const Extents& extents);
+
+/// The cell of u in the domain [0, domain_max]: floor(u), clamped to the cells there are, so that every point of the
+/// closed domain has one. A point on a face between cells goes to the upper one.
+glm::ivec3 cell_of(const glm::dvec3& u, const glm::i64vec3& domain_max);
+
 /// Where lattice coordinates lie in the world: x = origin + axes * u. Column a of `axes` is e_a,
 /// the world step of one lattice coordinate: half the coset grid's step for bcc, the voxel step for cartesian.
 struct World {
@@ -43,5 +51,12 @@ struct World {
   /// A gradient per lattice coordinate as one per world unit (inverse transpose).
   glm::dvec3 gradient_to_world(const glm::dvec3& g) const { return glm::transpose(glm::inverse(axes)) * g; }
 };
+
+// The body is here: it is a few instructions, inside every evaluation.
+
+inline glm::ivec3 cell_of(const glm::dvec3& u, const glm::i64vec3& domain_max) {
+  const glm::dvec3 last(glm::max(domain_max - std::int64_t(1), glm::i64vec3(0)));
+  return glm::ivec3(glm::clamp(glm::floor(u), glm::dvec3(0.0), last));
+}
 
 }  // namespace quincunx

@@ -18,6 +18,7 @@ class Bcc7 final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::bcc; }
   int degree() const override { return 4; }
   int apron() const override { return 1; }
+  int prefilter_reach() const override { return 1; }
   std::string_view shader() const override { return "bcc7.glsl"; }
 
   Jet generator(const glm::dvec3& x) const override;

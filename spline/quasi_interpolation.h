@@ -1,4 +1,6 @@
-// From samples to spline coefficients on the BCC lattice.
+// From samples to spline coefficients, on either lattice. A coefficient is computed from the samples about it by the same
+// operations wherever it stands, so that the coefficients of a box cut out of a volume, with the samples that they depend
+// on, are those of the volume to the last bit.
 #pragma once
 
 #include <string_view>
@@ -20,6 +22,17 @@ inline constexpr BccMask kIdentityMask{1, 0, 0, 1};
 /// q7 of bcc7: 19/12 at the centre, -1/24 at the 14 neighbours.
 inline constexpr BccMask kBcc7Mask{38, -1, -1, 24};
 
+/// A symmetric mask of three taps, integers over one denominator, applied along each axis of a Cartesian grid. Where the
+/// sides are 0 it must be the identity.
+struct AxisMask {
+  double side, centre, denominator;
+};
+
+/// The samples as they are.
+inline constexpr AxisMask kIdentityAxisMask{0, 1, 1};
+/// For cubic B-splines: 4/3 at the centre, -1/6 at either side.
+inline constexpr AxisMask kCubicAxisMask{-1, 8, 6};
+
 /// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double
 /// and rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
 /// Throws InputError where the volume is not BCC, its samples are not as many as its extents say, one is NaN or
@@ -28,9 +41,18 @@ template <class T>
 Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
                                  const Progress& progress);
 
+/// The same on the Cartesian lattice; the apron is one sample wider where an axis has one sample (Spline::apron).
+template <class T>
+Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline,
+                                       const Progress& progress);
+
 extern template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
                                                       const Progress&);
 extern template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
                                                      const Progress&);
+extern template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
+                                                            const Progress&);
+extern template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
+                                                           const Progress&);
 
 }  // namespace quincunx

@@ -4,6 +4,8 @@
 
 #include "lattice/error.h"
 #include "spline/bcc7.h"
+#include "spline/tricubic.h"
+#include "spline/trilinear.h"
 
 namespace quincunx {
 namespace {
@@ -21,6 +23,8 @@ std::unique_ptr<Spline> make() {
 
 constexpr Row kSplines[] = {
     {"bcc7", make<Bcc7>},
+    {"trilinear", make<Trilinear>},
+    {"tricubic", make<Tricubic>},
 };
 
 }  // namespace

@@ -28,8 +28,12 @@ class Spline {
   virtual LatticeKind lattice() const = 0;
   /// Total degree of a polynomial piece, and so its degree along a ray.
   virtual int degree() const = 0;
-  /// Samples of border that the stencil reaches beyond the domain, per side of each coset.
+  /// Samples of border that the stencil reaches beyond the domain, per side of each coset. Coefficients may have more:
+  /// those of a Cartesian volume with an axis of one sample have one more, for that axis's one cell (cell_count).
   virtual int apron() const = 0;
+  /// A coefficient depends on the samples whose indices, in either coset, differ from its own by at most this along each
+  /// axis; without prefilter on its own sample alone.
+  virtual int prefilter_reach() const = 0;
   /// The GLSL twin, a file of shaders/.
   virtual std::string_view shader() const = 0;
 
@@ -50,7 +54,8 @@ class Spline {
                                    const glm::dvec3& b, std::span<double> bernstein) const = 0;
 
   /// Coefficients whose spline quasi-interpolates the samples with the spline's full approximation order, or the samples themselves
-  /// (`Prefilter::none`). Computed in double. Throws InputError on NaN or infinite samples (count and first place).
+  /// (`Prefilter::none`). Computed in double, each by the same operations wherever it stands: those of a box cut out of the
+  /// volume, prefilter_reach() wider, are the volume's to the last bit. Throws InputError on NaN or infinite samples (count and first place).
   enum class Prefilter { none, quasi_interpolation };
   virtual Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                             const Progress& progress = {}) const = 0;

@@ -27,10 +27,6 @@ struct Tetrahedron {
   bool operator==(const Tetrahedron&) const = default;
 };
 
-/// The cell of u in the domain [0, domain_max] (each >= 1): floor(u), clamped to the cells there are, so that
-/// every point of the closed domain has one. A point on a face between cells goes to the upper one.
-glm::ivec3 cell_of(const glm::dvec3& u, const glm::i64vec3& domain_max);
-
 /// The tetrahedron of `cell` (its lower corner) that holds u; the nearest by order of coordinates where u is outside
 /// the cell. A point on a face between tetrahedra goes to the one that walks the lower axis first.
 Tetrahedron locate(const glm::ivec3& cell, const glm::dvec3& u);
@@ -57,10 +53,6 @@ inline glm::dvec3 Tetrahedron::gradient_from_frame(const glm::dvec3& g) const {
   glm::dvec3 r(0.0);
   for (int a = 0; a < 3; ++a) r[axis[a]] = sign[axis[a]] * g[a];
   return r;
-}
-
-inline glm::ivec3 cell_of(const glm::dvec3& u, const glm::i64vec3& domain_max) {
-  return glm::ivec3(glm::clamp(glm::floor(u), glm::dvec3(0.0), glm::dvec3(domain_max - std::int64_t(1))));
 }
 
 inline Tetrahedron locate(const glm::ivec3& cell, const glm::dvec3& u) {

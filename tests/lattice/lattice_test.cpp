@@ -69,5 +69,17 @@ TEST(World, GradientsFollowTheInverseTranspose) {
   EXPECT_GT(glm::length(world.axes * per_coordinate - g), 1.0);
 }
 
+TEST(Cells, FillTheDomainAndAreOneAlongACartesianAxisOfOneSample) {
+  EXPECT_EQ(cell_count(LatticeKind::bcc, {1, 2, 128}), glm::i64vec3(1, 3, 255));
+  EXPECT_EQ(cell_count(LatticeKind::cartesian, {1, 2, 128}), glm::i64vec3(1, 1, 127));
+}
+
+TEST(CellOf, HasACellForEveryPointOfTheClosedDomain) {
+  EXPECT_EQ(cell_of({0.0, 0.0, 0.0}, {1, 3, 5}), glm::ivec3(0));
+  EXPECT_EQ(cell_of({1.0, 3.0, 5.0}, {1, 3, 5}), glm::ivec3(0, 2, 4));
+  EXPECT_EQ(cell_of({0.5, 2.0, 4.999}, {1, 3, 5}), glm::ivec3(0, 2, 4));
+  EXPECT_EQ(cell_of({0.0, 0.0, 5.0}, {0, 0, 5}), glm::ivec3(0, 0, 4));
+}
+
 }  // namespace
 }  // namespace quincunx

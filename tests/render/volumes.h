@@ -53,6 +53,7 @@ class QuadraticSpline final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::bcc; }
   int degree() const override { return 2; }
   int apron() const override { return 0; }
+  int prefilter_reach() const override { return 0; }
   std::string_view shader() const override { return ""; }
   Jet generator(const glm::dvec3&) const override { return {}; }
   Jet evaluate(const Coefficients<double>&, const glm::dvec3& u) const override { return f_(u); }

@@ -34,9 +34,10 @@ struct Order {
   std::string_view name;
   double with_prefilter, without;
 };
-constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0}};
+constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0}, {"trilinear", 2.0, 2.0}, {"tricubic", 4.0, 2.0}};
 
-TEST(Convergence, HasItsApproximationOrderWithPrefilterAndTwoWithout) {
+TEST(Convergence, HasItsApproximationOrderWithPrefilterAndWithout) {
+  ASSERT_EQ(std::size(kOrders), spline_names().size());
   for (const Order& order : kOrders) {
     const auto spline = make_spline(order.name);
     for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::quasi_interpolation}) {

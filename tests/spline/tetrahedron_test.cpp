@@ -65,11 +65,5 @@ TEST(Tetrahedron, IsNearestByOrderForPointsOutsideTheCell) {
   EXPECT_EQ(t.axis, glm::ivec3(0, 2, 1));
 }
 
-TEST(CellOf, HasACellForEveryPointOfTheClosedDomain) {
-  EXPECT_EQ(cell_of({0.0, 0.0, 0.0}, {1, 3, 5}), glm::ivec3(0));
-  EXPECT_EQ(cell_of({1.0, 3.0, 5.0}, {1, 3, 5}), glm::ivec3(0, 2, 4));
-  EXPECT_EQ(cell_of({0.5, 2.0, 4.999}, {1, 3, 5}), glm::ivec3(0, 2, 4));
-}
-
 }  // namespace
 }  // namespace quincunx
