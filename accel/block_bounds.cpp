@@ -81,4 +81,11 @@ BlockBounds block_bounds(const CellBounds& cells, int block) {
   return bounds;
 }
 
+BlockBounds coarser(const BlockBounds& blocks, int block) {
+  const int factor = block / blocks.block;
+  BlockBounds bounds{block, block_count(blocks.blocks, factor), {}, {}};
+  reduce({blocks.blocks, blocks.min.data(), blocks.max.data()}, factor, bounds.min, bounds.max);
+  return bounds;
+}
+
 }  // namespace quincunx

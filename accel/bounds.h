@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "accel/value_range.h"
 #include "lattice/progress.h"
-#include "spline/coefficients.h"
+#include "spline/spline.h"
 
 namespace quincunx {
 
@@ -14,18 +15,30 @@ namespace quincunx {
 /// floats computes there or, at a point of the cell's boundary, from a neighbouring cell.
 ///
 /// The interval is the range of the Bernstein-Bezier net over the cell (convex hull property), widened by the
-/// rounding margin of bounds.cpp, then rounded outwards to 16 bits: value(q) = low + q * step, exactly as computed
-/// in double.
-struct CellBounds {
-  glm::i64vec3 cells{0};  ///< domain_max of the volume; an axis of one sample has one cell (see bounds.cpp)
-  double low = 0.0, step = 1.0;
+/// rounding margin of its spline (bounds.cpp), then rounded outwards to 16 bits on its scale.
+struct CellBounds : ValueScale {
+  glm::i64vec3 cells{0};  ///< cell_count of the volume
   std::vector<std::uint16_t> min, max;  ///< x fastest
 
-  double value(std::uint16_t q) const { return low + double(q) * step; }
   std::size_t number(const glm::i64vec3& c) const { return std::size_t((c.z * cells.y + c.y) * cells.x + c.x); }
 };
 
-/// Bounds of the bcc7 spline, computed in parallel.
-CellBounds bcc7_bounds(const Coefficients<float>& c, const Progress& progress = {});
+/// What 16-bit numbers mean, and what margins suppose, for all boxes of a volume alike.
+struct BoundsScale : ValueScale {
+  double least = 0.0, most = 0.0;  ///< that a coefficient of the volume can be
+  double displacement = 0.0;       ///< cells, 1-norm: of the point that a kernel computes from the one it means
+};
+
+/// Bounds of the spline of coefficients `c` over all their cells, computed in parallel.
+/// Throws std::logic_error for a spline that has none here.
+CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const Progress& progress = {});
+
+/// The scale for any coefficients that the spline's prefilter, or none, can make of samples from `sample_min` to `sample_max`, and for
+/// a volume of `cells` (cell_count of all of it).
+BoundsScale bounds_scale(const Spline& spline, double sample_min, double sample_max, const glm::i64vec3& cells);
+
+/// Bounds on `scale` over the cells of a box cut out of a volume, certain for each cell whose coefficients are the volume's: those that
+/// reach it, no farther, all within the box's extents. What is outside the box may be anything that the scale allows.
+CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const BoundsScale& scale);
 
 }  // namespace quincunx

@@ -9,8 +9,8 @@
 
 namespace quincunx {
 
-Classification classify(const BlockBounds& bounds, const CellBounds& scale, std::span<const double> isovalues) {
-  const Thresholds thresholds(scale, isovalues);
+Classification classify(const BlockBounds& bounds, const ValueScale& scale, std::span<const ValueRange> ranges) {
+  const Thresholds thresholds(scale, ranges);
   Classification c;
   c.block = bounds.block;
   c.blocks = bounds.blocks;

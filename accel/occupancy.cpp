@@ -1,4 +1,4 @@
-// One bit per cell: may it hold a surface?
+// One bit per cell: may it hold something to be seen?
 #include <tbb/parallel_reduce.h>
 #include <tbb/blocked_range.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kBrick = 4;
 constexpr std::size_t kFewWindows = 8;  // up to here a vectorised comparison with each beats looking up tables
 
-/// mask[x] = 1 where the interval of cell x of a row touches an isovalue, else 0.
+/// mask[x] = 1 where the interval of cell x of a row touches a range, else 0.
 void touching(const Thresholds& thresholds, const std::uint16_t* min, const std::uint16_t* max, std::int64_t n,
               std::uint8_t* mask) {
   if (thresholds.windows().size() > kFewWindows) {
@@ -37,8 +37,8 @@ std::uint64_t pack(const std::uint8_t* mask) {
 
 }  // namespace
 
-CellOccupancy occupancy(const CellBounds& bounds, std::span<const double> isovalues) {
-  const Thresholds thresholds(bounds, isovalues);
+CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ranges) {
+  const Thresholds thresholds(bounds, ranges);
   CellOccupancy o;
   o.bricks = (bounds.cells + (kBrick - 1)) / kBrick;
   o.words.resize(std::size_t(o.bricks.x * o.bricks.y * o.bricks.z));

@@ -1,4 +1,4 @@
-// Isovalues seen from quantised bounds.
+// Ranges of values seen from quantised bounds.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace quincunx {
 
-/// Compares quantised intervals with a set of isovalues exactly: value(q) as CellBounds computes it, in double.
-/// An interval touches an isovalue where value(min) <= isovalue <= value(max).
+/// Compares quantised intervals with ranges of values exactly: value(q) as the scale computes it, in double.
+/// An interval touches a range where value(min) <= high and low <= value(max).
 class Thresholds {
  public:
-  /// `isovalues` ascend. Throws InputError, naming --iso, where there are more than 254.
-  Thresholds(const CellBounds& scale, std::span<const double> isovalues);
+  /// `ranges` ascend and are disjoint. Throws InputError, naming --iso, where there are more than 254 (those of transfer functions are joined before).
+  Thresholds(const ValueScale& scale, std::span<const ValueRange> ranges);
 
-  /// An interval touches this isovalue where min <= highest_min and max >= lowest_max.
+  /// An interval touches this range where min <= highest_min and max >= lowest_max.
   struct Window {
     std::uint16_t highest_min, lowest_max;
   };
-  /// One for each isovalue that some interval can touch.
+  /// One for each range that some interval can touch.
   const std::vector<Window>& windows() const { return windows_; }
 
-  /// Number of isovalues below value(q).
+  /// Number of ranges that end below value(q).
   std::uint8_t below(std::uint16_t q) const { return below_[q]; }
-  /// Number of isovalues at or below value(q).
+  /// Number of ranges that begin at or below value(q).
   std::uint8_t up_to(std::uint16_t q) const { return up_to_[q]; }
   bool touches(std::uint16_t min, std::uint16_t max) const { return up_to(max) > below(min); }
 

@@ -51,7 +51,7 @@ void measure_volume(const ClusterFlags& flags, const std::string& path, double i
   const Progress progress = bar.stage(name);
   for (std::size_t n = 0; n < flags.blocks.size(); ++n) {
     quincunx::report(progress, double(n) / double(flags.blocks.size()));
-    const Classification blocks = classify(block_bounds(cells, flags.blocks[n]), cells, {{isovalue}});
+    const Classification blocks = classify(block_bounds(cells, flags.blocks[n]), cells, {{{isovalue, isovalue}}});
     report.lines.push_back(measure_clusters(fmt::format("{} at {}, blocks of {}", name, isovalue, flags.blocks[n]), blocks,
                                             flags.max_cluster, flags.rounds));
   }

@@ -108,4 +108,11 @@ Buffer create_buffer(Device& device, std::uint64_t bytes, BufferUse use, const s
   return buffer;
 }
 
+Buffer create_filled(Device& device, std::span<const std::byte> bytes, BufferUse use, const std::string& label,
+                     VkFormat texel_format) {
+  Buffer buffer = create_buffer(device, bytes.size(), use, label, texel_format);
+  upload(device, buffer, bytes);
+  return buffer;
+}
+
 }  // namespace quincunx::gpu

@@ -36,6 +36,10 @@ struct Buffer {
 Buffer create_buffer(Device& device, std::uint64_t bytes, BufferUse use, const std::string& label,
                      VkFormat texel_format = VK_FORMAT_UNDEFINED);
 
+/// A buffer of these bytes.
+Buffer create_filled(Device& device, std::span<const std::byte> bytes, BufferUse use, const std::string& label,
+                     VkFormat texel_format = VK_FORMAT_UNDEFINED);
+
 /// Copies to and from the buffer at `offset` in bytes; the data is there when the call returns.
 /// Throws std::out_of_range where the bytes do not lie in the buffer.
 void upload(Device& device, const Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t offset = 0);

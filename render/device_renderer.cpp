@@ -22,16 +22,12 @@ constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
 constexpr std::int64_t kMostCells = 65535;     // along an axis: lists of roots and boxes hold 16 bits (root.glsl, box.glsl)
 constexpr std::uint32_t kRaysPerLane = 16;     // of the seeking pass, one after another, on a CPU
 
+/// The values that leave a trace in the picture.
+std::vector<ValueRange> seen_values(const Scene& scene) { return ranges_of(isovalues_of(visible_surfaces(scene))); }
+
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& v) {
   return std::as_bytes(std::span<const T>(v));
-}
-
-gpu::Buffer upload_new(gpu::Device& device, std::span<const std::byte> bytes, gpu::BufferUse use, const std::string& label,
-                       VkFormat format = VK_FORMAT_UNDEFINED) {
-  gpu::Buffer buffer = gpu::create_buffer(device, bytes.size(), use, label, format);
-  if (!bytes.empty()) gpu::upload(device, buffer, bytes);
-  return buffer;
 }
 
 }  // namespace
@@ -121,24 +117,18 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   stats.upload_ms += upload.ms();
 }
 
-void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress) {
-  if (cells_ || request.skip.structure == "none") return;
+void DeviceRenderer::prepare_bounds(RenderStats& stats, const Progress& progress) {
+  if (bounds_) return;
   const Stopwatch watch;
-  cells_ = bcc7_bounds(*coefficients_, progress);
+  bounds_.emplace(bcc7_bounds(*coefficients_, progress));
   stats.bounds_ms = watch.ms();
 }
 
 SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, const Progress& progress) {
-  prepare_coefficients(stats, progress);
-  prepare_bounds(request, stats, progress);
   if (request.skip.structure == "none" || !is_open(request.skip)) return {request.skip, ""};
-  std::vector<double> isovalues;
-  for (const Isosurface& s : visible_surfaces(request.scene)) isovalues.push_back(s.isovalue);
-  if (chosen_ && chosen_->wanted == request.skip && chosen_->isovalues == isovalues) return chosen_->choice;
-  const Stopwatch watch;
-  chosen_ = Chosen{request.skip, isovalues, choose_skip(request.skip, *cells_, isovalues, {.cpu = gpu::info(device_).type == "CPU"})};
-  stats.classify_ms += watch.ms();
-  return chosen_->choice;
+  prepare_coefficients(stats, progress);
+  prepare_bounds(stats, progress);
+  return skipping_.choose(request.skip, *bounds_, seen_values(request.scene), stats);
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
@@ -147,7 +137,7 @@ void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfac
     data.insert(data.end(), {float(s.isovalue), float(s.opacity), 0.0f, 0.0f});
     data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
   }
-  isosurfaces_ = upload_new(device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
+  isosurfaces_ = gpu::create_filled(device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
 }
 
 // ---- pictures ----
@@ -247,11 +237,10 @@ void DeviceRenderer::count_costs(Request request, RenderStats& stats, const Prog
   Band band = make_band(request.scene, true);
   Frame frame = empty_frame(request.scene);
   trace(counting, request.scene, band, &frame, progress);
-  double sums[3] = {};
-  for (std::size_t i = 0; i < frame.cost.size(); ++i) sums[i % 3] += frame.cost[i];
-  stats.evaluations = std::uint64_t(sums[0]);
-  stats.steps = std::uint64_t(sums[1]);
-  stats.intervals = std::uint64_t(sums[2]);
+  const CostSums sums = cost_sums(frame);
+  stats.evaluations = sums.evaluations;
+  stats.steps = sums.steps;
+  stats.intervals = sums.intervals;
 }
 
 Frame DeviceRenderer::empty_frame(const Scene& scene) {
@@ -264,14 +253,12 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
   return frame;
 }
 
-void DeviceRenderer::describe(const Band& band, const Request& request, RenderStats& stats) const {
-  std::vector<double> isovalues;
-  for (const Isosurface& s : request.scene.isosurfaces) isovalues.push_back(s.isovalue);
+void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   std::uint64_t coefficients = 0;
   for (const gpu::Buffer& b : coefficient_buffers_) coefficients += b.bytes;
   stats.device = gpu::info(device_).name;
   stats.device_bytes = {{"coefficients", coefficients}};
-  skipping_.describe(cells_ ? &*cells_ : nullptr, isovalues, stats);
+  skipping_.describe(stats);
   stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes);
   stats.device_bytes.emplace_back("parameters", parameters_.bytes + isosurfaces_.bytes);
 }
@@ -286,12 +273,13 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   Request visible = request;
   visible.scene.isosurfaces = visible_surfaces(request.scene);
   if (visible.scene.isosurfaces.empty()) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
-  std::vector<double> isovalues;
-  for (const Isosurface& s : visible.scene.isosurfaces) isovalues.push_back(s.isovalue);
 
   stats = RenderStats{};
+  prepare_coefficients(stats, progress);
+  const bool skips = request.skip.structure != "none";
+  if (skips) prepare_bounds(stats, progress);
   visible.skip = complete(visible, stats, progress).config;
-  skipping_.prepare(visible.skip, cells_ ? &*cells_ : nullptr, isovalues, lattice_eye(visible.scene), stats);
+  skipping_.prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);
   const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);
 
@@ -305,7 +293,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   if (request.repeat > 1) trace(made, visible.scene, band, nullptr, {});  // warm-up
   for (int i = 0; i < request.repeat; ++i)
     stats.trace_ms.push_back(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
-  describe(band, visible, stats);
+  describe(band, stats);
   if (request.count_costs) count_costs(visible, stats, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;
   stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));

@@ -5,12 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "accel/bounds.h"
-#include "accel/choose_skip.h"
 #include "gpu/gpu.h"
 #include "render/device_skipping.h"
 #include "render/kernel_cache.h"
 #include "render/renderer.h"
+#include "render/volume_bounds.h"
 #include "render/trace_frame.h"
 
 namespace quincunx {
@@ -41,8 +40,8 @@ class DeviceRenderer final : public Renderer {
   };
 
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
-  void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
-  /// `request` with nothing left open, and why (empty where nothing was).
+  void prepare_bounds(RenderStats& stats, const Progress& progress);
+  /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
   Band make_band(const Scene& scene, bool cost);
@@ -56,7 +55,7 @@ class DeviceRenderer final : public Renderer {
   void read_band(const Band& band, int row, int rows, Frame& frame);
   void count_costs(Request request, RenderStats& stats, const Progress& progress);
   static Frame empty_frame(const Scene& scene);
-  void describe(const Band& band, const Request& request, RenderStats& stats) const;
+  void describe(const Band& band, RenderStats& stats) const;
   CoefficientLayout coefficient_layout() const;
   glm::dvec3 lattice_eye(const Scene& scene) const;
 
@@ -69,14 +68,7 @@ class DeviceRenderer final : public Renderer {
   std::optional<Coefficients<float>> coefficients_;
   std::vector<gpu::Buffer> coefficient_buffers_;
 
-  std::optional<CellBounds> cells_;
-  /// What was left open last, and how it was filled in.
-  struct Chosen {
-    SkipConfig wanted;
-    std::vector<double> isovalues;
-    SkipChoice choice;
-  };
-  std::optional<Chosen> chosen_;
+  std::optional<VolumeBounds> bounds_;
   DeviceSkipping skipping_;
   gpu::Buffer isosurfaces_, parameters_;
 };

@@ -21,12 +21,6 @@ VkFormat vulkan_format(TexelFormat format) {
   return VK_FORMAT_UNDEFINED;
 }
 
-gpu::Buffer upload_texels(gpu::Device& device, std::span<const std::byte> bytes, const std::string& name, VkFormat format) {
-  gpu::Buffer buffer = gpu::create_buffer(device, bytes.size(), gpu::BufferUse::texel, name, format);
-  gpu::upload(device, buffer, bytes);
-  return buffer;
-}
-
 /// Whether the same blocks are active in both: levels of the others are nothing to the kernels.
 bool same_blocks(const std::optional<Classification>& a, const Classification& b) {
   const auto alike = [](std::uint8_t x, std::uint8_t y) { return (x == Classification::active) == (y == Classification::active); };
@@ -34,8 +28,6 @@ bool same_blocks(const std::optional<Classification>& a, const Classification& b
 }
 
 void check_config(const SkipConfig& config) {
-  if (config.block < 1 || config.block > 256 || !std::has_single_bit(unsigned(config.block)))
-    throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to 256", config.block));
   if (config.max_cluster < 1 || config.max_cluster > 256)
     throw InputError(fmt::format("--max-cluster: found {}, expected 1 to 256", config.max_cluster));
 }
@@ -48,45 +40,66 @@ bool DeviceSkipping::same_kind(const SkipConfig& config) const {
   return structure_ && same == config_;
 }
 
-void DeviceSkipping::prepare_structure(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues,
-                                       RenderStats& stats) {
+void DeviceSkipping::set_ranges(std::span<const ValueRange> ranges) {
+  if (std::ranges::equal(ranges, ranges_)) return;
+  ranges_.assign(ranges.begin(), ranges.end());
+  classified_.clear();
+  occupancy_.reset();
+  built_for_ranges_ = false;
+}
+
+const Classification& DeviceSkipping::classified(VolumeBounds& bounds, int block, RenderStats& stats) {
+  const auto known = classified_.find(block);
+  if (known != classified_.end()) return known->second;
+  const BlockBounds& blocks = bounds.blocks(block, stats.bounds_ms);
+  const Stopwatch watch;
+  const Classification& made = classified_.emplace(block, classify(blocks, bounds.scale(), ranges_)).first->second;
+  stats.classify_ms += watch.ms();
+  return made;
+}
+
+SkipChoice DeviceSkipping::choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, RenderStats& stats) {
+  set_ranges(ranges);
+  const bool looks = wanted.structure == "auto";
+  const int block = std::max(kChoiceBlock, bounds.finest());
+  SkipChoice choice = choose_skip(wanted, looks ? classified(bounds, block, stats) : Classification{}, {.cpu = gpu::info(device_).type == "CPU"});
+  choice.config.block = std::max(choice.config.block, wanted.block == 0 ? bounds.finest() : 1);
+  choice.config.cell_test = wanted.cell_test && bounds.cells() != nullptr;
+  return choice;
+}
+
+void DeviceSkipping::prepare_structure(const SkipConfig& config, VolumeBounds& bounds, RenderStats& stats) {
   const bool same = same_kind(config);
-  if (same && std::ranges::equal(isovalues, isovalues_)) return;
+  if (same && built_for_ranges_) return;
   if (!same) {
     structure_ = make_structure(config);
     buffers_.clear();
-    classification_.reset();
+    built_.reset();
+    blocks_ = nullptr;
+    if (structure_->needs() != Needs::nothing) {
+      blocks_ = &bounds.blocks(config.block, stats.bounds_ms);
+      structure_->prepare(*blocks_);
+      stats.bounds_ms += structure_->report().build_ms;
+    }
   }
-  isovalues_.assign(isovalues.begin(), isovalues.end());
+  built_for_ranges_ = true;
   if (structure_->needs() == Needs::nothing) return;
 
-  if (!blocks_ || blocks_->block != config.block) {
-    const Stopwatch watch;
-    blocks_ = block_bounds(*cells, config.block);
-    stats.bounds_ms += watch.ms();
-  }
-  if (!same) {
-    structure_->prepare(*blocks_);
-    stats.bounds_ms += structure_->report().build_ms;
-  }
-  const Stopwatch watch;
-  const Thresholds thresholds(*cells, isovalues);
-  Classification classified;
-  if (structure_->needs() == Needs::classification) classified = classify(*blocks_, *cells, isovalues);
-  stats.classify_ms += watch.ms();
-  if (structure_->needs() == Needs::classification && same_blocks(classification_, classified)) return;
+  // Where the outcome is the same, nothing is built.
+  const Classification& blocks = classified(bounds, config.block, stats);
+  const bool by_blocks = structure_->needs() == Needs::classification;
+  if (by_blocks && same_blocks(built_, blocks)) return;
   const Stopwatch building;
-  structure_->build(classified, thresholds);
+  structure_->build(by_blocks ? blocks : Classification{}, Thresholds(bounds.scale(), ranges_));
   stats.cluster_ms += structure_->report().cluster_ms;
   stats.build_ms += building.ms() - structure_->report().cluster_ms;
-  if (structure_->needs() == Needs::classification) classification_ = std::move(classified);
+  if (by_blocks) built_ = blocks;
 }
 
-void DeviceSkipping::classify_cells(const CellBounds& cells, std::span<const double> isovalues, RenderStats& stats) {
-  if (occupancy_ && std::ranges::equal(isovalues, cell_isovalues_)) return;
+void DeviceSkipping::classify_cells(const CellBounds& cells, RenderStats& stats) {
+  if (occupancy_) return;
   const Stopwatch watch;
-  occupancy_ = occupancy(cells, isovalues);
-  cell_isovalues_.assign(isovalues.begin(), isovalues.end());
+  occupancy_ = occupancy(cells, ranges_);
   occupancy_uploaded_ = false;
   stats.classify_ms += watch.ms();
 }
@@ -99,10 +112,11 @@ bool DeviceSkipping::upload(RenderStats& stats) {
     if (old != buffers_.end() && old->version == wanted.version) continue;
     if (old != buffers_.end()) buffers_.erase(old);
     any = true;
-    buffers_.push_back({wanted.name, wanted.version, upload_texels(device_, wanted.bytes, wanted.name, vulkan_format(wanted.format))});
+    buffers_.push_back({wanted.name, wanted.version, gpu::create_filled(device_, wanted.bytes, gpu::BufferUse::texel, wanted.name, vulkan_format(wanted.format))});
   }
   if (config_.cell_test && occupancy_ && !occupancy_uploaded_) {
-    occupancy_buffer_ = upload_texels(device_, std::as_bytes(std::span(occupancy_->words)), "occupancy", VK_FORMAT_R32G32_UINT);
+    occupancy_buffer_ = gpu::create_filled(device_, std::as_bytes(std::span(occupancy_->words)), gpu::BufferUse::texel, "occupancy",
+                                           VK_FORMAT_R32G32_UINT);
     occupancy_uploaded_ = any = true;
   }
   if (any) stats.upload_ms += watch.ms();
@@ -122,31 +136,37 @@ void DeviceSkipping::set_parameters(TraceParameters& parameters) const {
   parameters.structure = structure_->parameters();
 }
 
-void DeviceSkipping::describe(const CellBounds* cells, std::span<const double> isovalues, RenderStats& stats) const {
+void DeviceSkipping::describe(RenderStats& stats) const {
   stats.skip = config_;
   std::uint64_t bytes = 0;
   for (const Uploaded& u : buffers_) bytes += u.buffer.bytes;
   stats.device_bytes.emplace_back("structure", bytes);
   stats.device_bytes.emplace_back("occupancy", config_.cell_test ? occupancy_buffer_.bytes : 0);
   if (config_.cell_test && occupancy_) stats.active_cells = occupancy_->active_cells;
-  if (structure_->needs() == Needs::nothing) return;
+  if (!blocks_) return;
   stats.blocks = blocks_->min.size();
   stats.block_extents = blocks_->blocks;
-  // A structure that decides in the kernel has no classification: it is made here for the count.
-  stats.active_blocks = (classification_ ? *classification_ : classify(*blocks_, *cells, isovalues)).active_blocks;
+  stats.active_blocks = classified_.at(config_.block).active_blocks;
   const StructureReport report = structure_->report();
   stats.leaves = structure_->needs() == Needs::bounds ? stats.active_blocks : report.leaves;
   stats.nodes = report.nodes;
   stats.depth = report.depth;
 }
 
-void DeviceSkipping::prepare(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues,
-                             const glm::dvec3& eye, RenderStats& stats) {
+void DeviceSkipping::prepare(const SkipConfig& config, VolumeBounds* bounds, std::span<const ValueRange> ranges, const glm::dvec3& eye,
+                             RenderStats& stats) {
   if (config.structure != "none") check_config(config);
-  prepare_structure(config, cells, isovalues, stats);
+  set_ranges(ranges);
+  if (bounds) {
+    prepare_structure(config, *bounds, stats);
+  } else if (!same_kind(config)) {
+    structure_ = make_structure(config);
+    buffers_.clear();
+    blocks_ = nullptr;
+  }
   config_ = config;
   if (structure_->needs() == Needs::nothing) config_.cell_test = false;
-  if (config_.cell_test) classify_cells(*cells, isovalues, stats);
+  if (config_.cell_test) classify_cells(*bounds->cells(), stats);
   const Stopwatch arranging;
   structure_->arrange(eye);
   const double arrange_ms = arranging.ms();

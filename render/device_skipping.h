@@ -1,16 +1,19 @@
 // The skipping structure of a renderer on the device: built from bounds when something it depends on has changed.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "accel/choose_skip.h"
 #include "accel/classification.h"
 #include "accel/structure.h"
 #include "gpu/gpu.h"
 #include "render/renderer.h"
+#include "render/volume_bounds.h"
 #include "shaders/shared/trace_parameters.h"
 
 namespace quincunx {
@@ -19,18 +22,20 @@ class DeviceSkipping {
  public:
   explicit DeviceSkipping(gpu::Device& device) : device_(device) {}
 
-  /// Builds and uploads what `config` needs for `isovalues` (ascending) and rays from `eye` (lattice coordinates), keeping what
-  /// still holds from the call before: block bounds while the block size stays, the structure while the set of active blocks does.
-  /// `cells` are the same at every call; null only for a structure that needs none. Adds to the times of `stats`.
-  void prepare(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues, const glm::dvec3& eye,
-               RenderStats& stats);
+  /// `wanted` with nothing left open, for a volume's bounds (the same at every call) and the values that can be seen, and why.
+  SkipChoice choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, RenderStats& stats);
+
+  /// Builds and uploads what `config`, in which nothing is open, needs for `ranges` and rays from `eye` (lattice coordinates), keeping what
+  /// still holds from the call before: the structure while the set of active blocks stays, their classification while the ranges do.
+  /// `bounds` are the same at every call; null only for a structure that needs none. Adds to the times of `stats`.
+  void prepare(const SkipConfig& config, VolumeBounds* bounds, std::span<const ValueRange> ranges, const glm::dvec3& eye, RenderStats& stats);
 
   /// The buffers, by their names in the kernels.
   gpu::Resources resources() const;
   /// Sets `blocks`, `bricks` and `structure`.
   void set_parameters(TraceParameters& parameters) const;
-  /// Tells what there is: counts and bytes. `cells` and `isovalues` as in prepare.
-  void describe(const CellBounds* cells, std::span<const double> isovalues, RenderStats& stats) const;
+  /// Tells what the last prepare made: counts and bytes.
+  void describe(RenderStats& stats) const;
 
  private:
   using Needs = SkippingStructure::Needs;
@@ -41,18 +46,23 @@ class DeviceSkipping {
   };
 
   bool same_kind(const SkipConfig& config) const;
-  void prepare_structure(const SkipConfig& config, const CellBounds* cells, std::span<const double> isovalues, RenderStats& stats);
-  void classify_cells(const CellBounds& cells, std::span<const double> isovalues, RenderStats& stats);
+  /// Forgets what was classified for other ranges.
+  void set_ranges(std::span<const ValueRange> ranges);
+  const Classification& classified(VolumeBounds& bounds, int block, RenderStats& stats);
+  void prepare_structure(const SkipConfig& config, VolumeBounds& bounds, RenderStats& stats);
+  void classify_cells(const CellBounds& cells, RenderStats& stats);
   /// False where nothing had changed.
   bool upload(RenderStats& stats);
 
   gpu::Device& device_;
   SkipConfig config_;
-  std::vector<double> isovalues_, cell_isovalues_;  ///< that the structure, the occupancy bits are for
+  std::vector<ValueRange> ranges_;
+  std::map<int, Classification> classified_;  ///< for ranges_, by block size
+  std::optional<CellOccupancy> occupancy_;    ///< for ranges_
   std::unique_ptr<SkippingStructure> structure_;
-  std::optional<BlockBounds> blocks_;
-  std::optional<Classification> classification_;
-  std::optional<CellOccupancy> occupancy_;
+  bool built_for_ranges_ = false;          ///< structure_ is what ranges_ asks for
+  std::optional<Classification> built_;    ///< what structure_ was built from, where it needs one
+  const BlockBounds* blocks_ = nullptr;    ///< those of structure_; null where it needs none
   std::vector<Uploaded> buffers_;
   gpu::Buffer occupancy_buffer_;
   bool occupancy_uploaded_ = false;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "render/ray.h"
 #include "render/shading.h"
@@ -16,12 +15,6 @@ namespace {
 
 constexpr int kTile = 16;
 
-std::vector<double> isovalues(const std::vector<Isosurface>& surfaces) {
-  std::vector<double> values;
-  for (const Isosurface& surface : surfaces) values.push_back(surface.isovalue);
-  return values;
-}
-
 /// One picture in the making.
 class Painter {
  public:
@@ -30,7 +23,7 @@ class Painter {
         coefficients_(coefficients),
         scene_(scene),
         surfaces_(visible_surfaces(scene)),
-        tracer_(spline, coefficients, isovalues(surfaces_), cells, {scene.intersect, scene.step}),
+        tracer_(spline, coefficients, isovalues_of(surfaces_), cells, {scene.intersect, scene.step}),
         frame_(camera_frame(scene.camera, scene.width, scene.height)),
         space_(ray_space(coefficients.lattice, coefficients.extents, coefficients.world, scene.camera.eye)) {
     const std::size_t pixels = std::size_t(scene.width) * scene.height;

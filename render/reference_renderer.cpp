@@ -46,11 +46,10 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
     frame = render_reference(*spline_, *coefficients_, scene, skips ? &*cells_ : nullptr, progress);
     stats.trace_ms.push_back(watch.ms());
   }
-  double sums[3] = {};
-  for (std::size_t i = 0; i < frame.cost.size(); ++i) sums[i % 3] += frame.cost[i];
-  stats.evaluations = std::uint64_t(sums[0]);
-  stats.steps = std::uint64_t(sums[1]);
-  stats.intervals = std::uint64_t(sums[2]);
+  const CostSums sums = cost_sums(frame);
+  stats.evaluations = sums.evaluations;
+  stats.steps = sums.steps;
+  stats.intervals = sums.intervals;
   stats.skip = request.skip;
   if (!request.scene.cost) frame.cost.clear();
   stats.rays = std::uint64_t(frame.width) * frame.height;

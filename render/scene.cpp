@@ -30,14 +30,13 @@ void check_color(const glm::dvec3& c, std::string_view flag) {
 void check_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
   if (isosurfaces.empty() || isosurfaces.size() > kMaxIsosurfaces)
     throw InputError(fmt::format("--iso: {} isovalues; expected 1 to {}", isosurfaces.size(), kMaxIsosurfaces));
-  std::vector<double> values;
   for (const Isosurface& surface : isosurfaces) {
     if (!std::isfinite(surface.isovalue))
       throw InputError(fmt::format("--iso: {}; expected a finite number", surface.isovalue));
     check_color(surface.color, "--color");
     check_range(surface.opacity, 0.0, 1.0, "--opacity");
-    values.push_back(surface.isovalue);
   }
+  std::vector<double> values = isovalues_of(isosurfaces);
   std::sort(values.begin(), values.end());
   const auto twin = std::adjacent_find(values.begin(), values.end());
   if (twin != values.end()) throw InputError(fmt::format("--iso: {} stands twice; expected different isovalues", *twin));
@@ -51,6 +50,18 @@ std::vector<Isosurface> visible_surfaces(const Scene& scene) {
   std::sort(surfaces.begin(), surfaces.end(),
             [](const Isosurface& a, const Isosurface& b) { return a.isovalue < b.isovalue; });
   return surfaces;
+}
+
+std::vector<double> isovalues_of(const std::vector<Isosurface>& surfaces) {
+  std::vector<double> values;
+  for (const Isosurface& surface : surfaces) values.push_back(surface.isovalue);
+  return values;
+}
+
+CostSums cost_sums(const Frame& frame) {
+  double sums[3] = {};
+  for (std::size_t i = 0; i < frame.cost.size(); ++i) sums[i % 3] += frame.cost[i];
+  return {std::uint64_t(sums[0]), std::uint64_t(sums[1]), std::uint64_t(sums[2])};
 }
 
 void check_scene(const Scene& scene) {

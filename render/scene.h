@@ -1,6 +1,7 @@
 // What is to be rendered, and how: the same for the device's caster and the reference caster.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct Scene {
 /// The isosurfaces that leave a trace in the picture (opacity above 0), by ascending isovalue.
 std::vector<Isosurface> visible_surfaces(const Scene& scene);
 
+/// Their isovalues.
+std::vector<double> isovalues_of(const std::vector<Isosurface>& surfaces);
+
 /// Throws InputError naming the flag where a number is out of range or not finite.
 void check_scene(const Scene& scene);
 
@@ -52,5 +56,11 @@ struct Frame {
   int width = 0, height = 0;
   std::vector<float> color, depth, normal, cost;
 };
+
+/// Evaluations, steps and intervals of all rays together, from the cost channels; zeros where there are none.
+struct CostSums {
+  std::uint64_t evaluations = 0, steps = 0, intervals = 0;
+};
+CostSums cost_sums(const Frame& frame);
 
 }  // namespace quincunx

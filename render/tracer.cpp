@@ -53,7 +53,7 @@ Tracer::Tracer(const Spline& spline, const Coefficients<double>& coefficients, s
   for (double& isovalue : isovalues_) isovalue -= rounding;
   if (cells == nullptr) return;
   assert(cells->cells == glm::i64vec3(cells_));
-  levels_ = classify(block_bounds(*cells, 1), *cells, isovalues_);
+  levels_ = classify(block_bounds(*cells, 1), *cells, ranges_of(isovalues_));
 }
 
 glm::dvec3 Tracer::place(const LatticeRay& ray, double s) const {

@@ -20,10 +20,14 @@ CellBounds bounds_with(double busy) {
   return cells;
 }
 
-const std::vector<double> kHalf{0.5};
+/// Blocks of such cells, classified for the isovalue 0.5.
+Classification blocks_with(double busy) {
+  const CellBounds cells = bounds_with(busy);
+  return classify(block_bounds(cells, kChoiceBlock), cells, ranges_of(std::vector{0.5}));
+}
 
 TEST(ChooseSkip, LeapsOverEmptyBlocksWhereThereAreAny) {
-  const SkipChoice choice = choose_skip({}, bounds_with(0.25), kHalf, {});
+  const SkipChoice choice = choose_skip({}, blocks_with(0.25), {});
   EXPECT_EQ(choice.config.structure, "distance");
   EXPECT_EQ(choice.config.block, 8);
   EXPECT_TRUE(choice.config.cell_test);
@@ -32,25 +36,25 @@ TEST(ChooseSkip, LeapsOverEmptyBlocksWhereThereAreAny) {
 }
 
 TEST(ChooseSkip, TakesTheCheapestStepWhereNearlyEveryBlockMayHoldASurface) {
-  EXPECT_EQ(choose_skip({}, bounds_with(1.0), kHalf, {}).config.structure, "grid");
-  EXPECT_EQ(choose_skip({}, bounds_with(0.8), kHalf, {}).config.structure, "distance");
+  EXPECT_EQ(choose_skip({}, blocks_with(1.0), {}).config.structure, "grid");
+  EXPECT_EQ(choose_skip({}, blocks_with(0.8), {}).config.structure, "distance");
 }
 
 TEST(ChooseSkip, KeepsWhatIsGiven) {
-  const CellBounds cells = bounds_with(0.25);
+  const Classification blocks = blocks_with(0.25);
   SkipConfig wanted{.structure = "bvh", .cell_test = false, .clustering = Clustering::boxes};
-  const SkipConfig chosen = choose_skip(wanted, cells, kHalf, {}).config;
+  const SkipConfig chosen = choose_skip(wanted, blocks, {}).config;
   wanted.block = chosen.block;
   EXPECT_EQ(chosen, wanted);
   EXPECT_GT(chosen.block, 0);
-  EXPECT_EQ(choose_skip({.block = 32}, cells, kHalf, {}).config.block, 32);
-  EXPECT_FALSE(choose_skip({.cell_test = false}, cells, kHalf, {}).config.cell_test);
+  EXPECT_EQ(choose_skip({.block = 32}, blocks, {}).config.block, 32);
+  EXPECT_FALSE(choose_skip({.cell_test = false}, blocks, {}).config.cell_test);
 }
 
 TEST(ChooseSkip, AlwaysCompletesToAStructureThatExists) {
   for (const double busy : {0.0, 0.01, 0.5, 1.0})
     for (const bool cpu : {true, false}) {
-      const SkipChoice choice = choose_skip({}, bounds_with(busy), kHalf, {.cpu = cpu});
+      const SkipChoice choice = choose_skip({}, blocks_with(busy), {.cpu = cpu});
       EXPECT_FALSE(is_open(choice.config));
       EXPECT_FALSE(choice.why.empty());
       EXPECT_EQ(make_structure(choice.config)->name(), choice.config.structure);

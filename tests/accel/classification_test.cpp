@@ -31,7 +31,7 @@ std::vector<double> isovalues_across(const CellBounds& cells, int count) {
 
 void expect_levels(const CellBounds& cells, int block, const std::vector<double>& isovalues) {
   const BlockBounds bounds = block_bounds(cells, block);
-  const Classification c = classify(bounds, cells, isovalues);
+  const Classification c = classify(bounds, cells, ranges_of(isovalues));
   EXPECT_EQ(c.block, block);
   EXPECT_EQ(c.blocks, bounds.blocks);
   ASSERT_EQ(c.level.size(), bounds.min.size());
@@ -59,7 +59,7 @@ TEST(Classification, AnIsovalueEqualToAnEndOfAnIntervalTouchesItAndTheNextNumber
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < bounds.min.size(); n += 7) {
     const double min = cells.value(bounds.min[n]), max = cells.value(bounds.max[n]);
-    const auto level = [&](double iso) { return classify(bounds, cells, std::vector{iso}).level[n]; };
+    const auto level = [&](double iso) { return classify(bounds, cells, ranges_of(std::vector{iso})).level[n]; };
     EXPECT_EQ(level(min), Classification::active);
     EXPECT_EQ(level(max), Classification::active);
     EXPECT_EQ(level(std::nextafter(min, -kInfinity)), 1) << "the isovalue is below the block";
@@ -70,9 +70,9 @@ TEST(Classification, AnIsovalueEqualToAnEndOfAnIntervalTouchesItAndTheNextNumber
 TEST(Classification, OfMoreThan254IsovaluesIsRefused) {
   const CellBounds cells = bcc7_bounds(smooth_coefficients({2, 2, 2}));
   const BlockBounds blocks = block_bounds(cells, 1);
-  EXPECT_NO_THROW(classify(blocks, cells, isovalues_across(cells, 254)));
+  EXPECT_NO_THROW(classify(blocks, cells, ranges_of(isovalues_across(cells, 254))));
   try {
-    classify(blocks, cells, isovalues_across(cells, 255));
+    classify(blocks, cells, ranges_of(isovalues_across(cells, 255)));
     FAIL();
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(), "--iso: found 255 isovalues, expected at most 254");

@@ -90,7 +90,7 @@ std::vector<BlockBox> leaves_of(const SkippingStructure& structure) {
 
 KdTree built(const Classification& c, KdTree::Config config) {
   KdTree tree(config);
-  tree.build(c, Thresholds({}, std::vector<double>{}));
+  tree.build(c, Thresholds({}, {}));
   return tree;
 }
 
@@ -285,7 +285,7 @@ TEST(KdTree, BuildingAgainReplacesLeavesAndVersion) {
     KdTree tree = built(strands(30), config);
     for (const Classification& c : {shell(12), noise({4, 4, 4}, 0.0, 0), single({3, 4, 5}, {2, 3, 4}), strands(30)}) {
       const auto version = tree.buffers()[0].version;
-      tree.build(c, Thresholds({}, std::vector<double>{}));
+      tree.build(c, Thresholds({}, {}));
       tree.arrange({-5.0, 3.0, 2.0});
       KdTree fresh = built(c, config);
       fresh.arrange({-5.0, 3.0, 2.0});

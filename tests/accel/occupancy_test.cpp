@@ -21,7 +21,7 @@ bool touches(const CellBounds& cells, const glm::i64vec3& cell, const std::vecto
 }
 
 void expect_occupancy(const CellBounds& cells, const std::vector<double>& isovalues) {
-  const CellOccupancy o = occupancy(cells, isovalues);
+  const CellOccupancy o = occupancy(cells, ranges_of(isovalues));
   ASSERT_EQ(o.bricks, (cells.cells + std::int64_t(3)) / std::int64_t(4));
   ASSERT_EQ(std::int64_t(o.words.size()), o.bricks.x * o.bricks.y * o.bricks.z);
   std::size_t active = 0;
@@ -52,8 +52,8 @@ TEST(Occupancy, TouchesAtEqualityAndAtNoNumberBeyondTheRange) {
     expect_occupancy(cells, {cells.value(cells.min[n])});
     expect_occupancy(cells, {cells.value(cells.max[n])});
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(occupancy(cells, std::vector{std::nextafter(cells.low, -kInfinity)}).active_cells, 0u);
-    EXPECT_EQ(occupancy(cells, std::vector{std::nextafter(cells.value(65535), kInfinity)}).active_cells, 0u);
+    EXPECT_EQ(occupancy(cells, ranges_of(std::vector{std::nextafter(cells.low, -kInfinity)})).active_cells, 0u);
+    EXPECT_EQ(occupancy(cells, ranges_of(std::vector{std::nextafter(cells.value(65535), kInfinity)})).active_cells, 0u);
   }
 }
 

@@ -71,9 +71,9 @@ TEST(Octree, ANewIsovalueChangesItsWindowsAlone) {
   scale.step = 1.0 / 65535.0;
   Octree octree;
   octree.prepare(blocks);
-  octree.build({}, Thresholds(scale, std::vector{0.25}));
+  octree.build({}, Thresholds(scale, ranges_of(std::vector{0.25})));
   const auto first = octree.buffers();
-  octree.build({}, Thresholds(scale, std::vector{0.5, 0.75}));
+  octree.build({}, Thresholds(scale, ranges_of(std::vector{0.5, 0.75})));
   const auto second = octree.buffers();
   EXPECT_EQ(first[0].version, second[0].version);
   EXPECT_NE(first[1].version, second[1].version);
@@ -84,7 +84,7 @@ TEST(Octree, WindowsAreTouchedByExactlyTheBlocksThatTouchTheIsovalue) {
   CellBounds scale;
   scale.step = 1.0 / 65535.0;
   for (const double isovalue : {-1.0, 0.0, 0.3, 7.0 / 65535.0, 1.0, 2.0}) {
-    const Thresholds thresholds(scale, std::vector{isovalue});
+    const Thresholds thresholds(scale, ranges_of(std::vector{isovalue}));
     Octree octree;
     octree.prepare(random_blocks({2, 2, 2}, 1));
     octree.build({}, thresholds);

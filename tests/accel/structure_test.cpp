@@ -14,7 +14,7 @@ namespace {
 /// Blocks of a small volume.
 struct Example {
   Example(int block, double isovalue)
-      : blocks(block_bounds(cells, block)), classification(classify(blocks, cells, std::vector{isovalue})), thresholds(cells, std::vector{isovalue}) {}
+      : blocks(block_bounds(cells, block)), classification(classify(blocks, cells, ranges_of(std::vector{isovalue}))), thresholds(cells, ranges_of(std::vector{isovalue})) {}
 
   CellBounds cells = bcc7_bounds(smooth_coefficients({9, 7, 5}));
   BlockBounds blocks;

@@ -66,7 +66,7 @@ std::set<std::string> buffers_of(const std::string& name) {
   const BlockBounds blocks = block_bounds(cells, 1);
   const std::vector<double> isovalues{0.5};
   structure->prepare(blocks);
-  structure->build(classify(blocks, cells, isovalues), Thresholds(cells, isovalues));
+  structure->build(classify(blocks, cells, ranges_of(isovalues)), Thresholds(cells, ranges_of(isovalues)));
   std::set<std::string> names;
   for (const StructureBuffer& buffer : structure->buffers()) names.insert(buffer.name);
   return names;

@@ -147,15 +147,14 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   DeviceSkipping skipping(device);
   RenderStats stats;
   const glm::dvec3 eye = random_eye(glm::dvec3(cells.cells), seed);
-  skipping.prepare(config, &cells, isovalues, eye, stats);
+  VolumeBounds bounds(cells);
+  skipping.prepare(config, &bounds, ranges_of(isovalues), eye, stats);
   TraceParameters parameters = trace_parameters(request.scene, coefficients);
   skipping.set_parameters(parameters);
 
   const gpu::Pipeline& pipeline = property_pipeline(config);
   const auto filled = [&](std::span<const std::byte> bytes, gpu::BufferUse use, const char* name, VkFormat format = VK_FORMAT_UNDEFINED) {
-    gpu::Buffer buffer = gpu::create_buffer(device, bytes.size(), use, name, format);
-    gpu::upload(device, buffer, bytes);
-    return buffer;
+    return gpu::create_filled(device, bytes, use, name, format);
   };
   const std::vector<float> isosurface{float(v.isovalue), 1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f, 0.0f};
   std::vector<std::uint32_t> tally(3 * std::size_t(rays));
