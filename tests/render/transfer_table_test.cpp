@@ -133,6 +133,10 @@ TEST(TransferTable, RefusesToMissAStretchAndSaysHowManyEntriesMeetIt) {
     }
   }
   EXPECT_GT(refused, 50);
+  // 101 entries stand at 0, 1, 2 ...; one more is needed for one to stand between 0 and 1.
+  const TransferFunction f{.colors = {{0, {1, 1, 1}}}, .opacities = {{0, 0}, {0.5, 1}, {1, 0}, {100, 0}}};
+  EXPECT_THAT(error_of([&] { bake(f, 101, 1.0, 1.0); }), HasSubstr("values 0 and 1; expected at least 102"));
+  EXPECT_NO_THROW(bake(f, 102, 1.0, 1.0));
 }
 
 TEST(TransferTable, WithoutAnyOpacityIsAllZero) {
