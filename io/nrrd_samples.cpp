@@ -60,27 +60,57 @@ void swap_bytes(std::span<T> samples) {
   }
 }
 
-/// Appends the samples block by block: `source(to, bytes)` gives the next bytes of the file, fewer at its end.
-template <class T, class Source>
-std::vector<T> read_blocks(const InputFile& file, const NrrdHeader& header, Source source, const Progress& progress) {
-  std::vector<T> samples;
-  samples.reserve(std::size_t(header.sample_count));
-  while (samples.size() < header.sample_count) {
-    report(progress, double(samples.size()) / double(header.sample_count));
-    const std::size_t begin = samples.size();
-    const std::size_t count =
-        std::size_t(std::min<std::uint64_t>(block_bytes / sizeof(T), header.sample_count - begin));
-    samples.resize(begin + count);
-    const std::size_t got = source(samples.data() + begin, count * sizeof(T));
-    if (got < count * sizeof(T)) fail_length(file, begin * sizeof(T) + got, header.sample_count * sizeof(T));
-    if (header.swap_bytes) swap_bytes(std::span<T>(samples).subspan(begin));
+/// Where samples go, block by block: into a vector that grows with what is there.
+template <class T>
+struct Collector {
+  const NrrdHeader& header;
+  std::vector<T> samples{};
+
+  /// Room for the next `count` samples, which keep() takes as they are then.
+  std::span<T> room(std::size_t count) {
+    if (samples.empty()) samples.reserve(std::size_t(header.sample_count));
+    samples.resize(samples.size() + count);
+    return std::span(samples).last(count);
   }
-  return samples;
+  void keep(std::span<T>) {}
+};
+
+/// Or from one block of memory to somebody else.
+template <class T>
+struct Forwarder {
+  const SampleSink& sink;
+  std::vector<T> block{};
+
+  std::span<T> room(std::size_t count) {
+    block.resize(count);
+    return block;
+  }
+  void keep(std::span<T> samples) { sink(std::as_bytes(samples)); }
+};
+
+/// How many samples follow number `begin` in the next block.
+template <class T>
+std::size_t block_count(const NrrdHeader& header, std::uint64_t begin) {
+  return std::size_t(std::min<std::uint64_t>(block_bytes / sizeof(T), header.sample_count - begin));
 }
 
-template <class T>
-std::vector<T> read_raw(InputFile& file, const NrrdHeader& header, const Progress& progress) {
-  const std::uint64_t expected = header.sample_count * sizeof(T);
+/// Hands the samples on block by block: `source(to, bytes)` gives the next bytes of the file, fewer at its end.
+template <class T, class Source, class Sink>
+void read_blocks(const InputFile& file, const NrrdHeader& header, Source source, Sink& sink, const Progress& progress) {
+  for (std::uint64_t begin = 0; begin < header.sample_count;) {
+    report(progress, double(begin) / double(header.sample_count));
+    const std::span<T> block = sink.room(block_count<T>(header, begin));
+    const std::size_t got = source(block.data(), block.size_bytes());
+    if (got < block.size_bytes()) fail_length(file, begin * sizeof(T) + got, header.sample_count * sizeof(T));
+    if (header.swap_bytes) swap_bytes(block);
+    sink.keep(block);
+    begin += block.size();
+  }
+}
+
+/// Where raw samples begin in `file`, whose position is before what is to be skipped: it holds just as many bytes.
+std::uint64_t raw_begin(const InputFile& file, const NrrdHeader& header) {
+  const std::uint64_t expected = header.sample_count * sample_type_bytes(header.type);
   const std::uint64_t present = file.remaining();
   if (header.byte_skip >= 0 && present < std::uint64_t(header.byte_skip)) {
     throw InputError(fmt::format("{}: field 'byte skip': found {}, expected at most the {} bytes that there are",
@@ -89,9 +119,14 @@ std::vector<T> read_raw(InputFile& file, const NrrdHeader& header, const Progres
   const std::uint64_t found =
       header.byte_skip >= 0 ? present - std::uint64_t(header.byte_skip) : std::min(present, expected);
   if (found != expected) fail_length(file, found, expected);
-  file.seek(file.size() - expected);
-  return read_blocks<T>(
-      file, header, [&](void* to, std::size_t bytes) { return file.read(to, bytes); }, progress);
+  return file.size() - expected;
+}
+
+template <class T, class Sink>
+void read_raw(InputFile& file, const NrrdHeader& header, Sink& sink, const Progress& progress) {
+  file.seek(raw_begin(file, header));
+  read_blocks<T>(
+      file, header, [&](void* to, std::size_t bytes) { return file.read(to, bytes); }, sink, progress);
 }
 
 /// Reads and forgets `bytes` of the unpacked stream.
@@ -107,20 +142,19 @@ void skip_unpacked(GzipReader& reader, const InputFile& file, std::uint64_t byte
   }
 }
 
-template <class T>
-std::vector<T> read_gzip(InputFile& file, const NrrdHeader& header, const Progress& progress) {
+template <class T, class Sink>
+void read_gzip(InputFile& file, const NrrdHeader& header, Sink& sink, const Progress& progress) {
   const std::uint64_t expected = header.sample_count * sizeof(T);
   const std::uint64_t most = GzipReader::max_unpacked(file.remaining());
   if (expected > most) fail_length(file, fmt::format("a gzip stream of at most {} bytes", most), expected);
 
   GzipReader reader(file);
   skip_unpacked(reader, file, std::uint64_t(header.byte_skip));
-  std::vector<T> samples = read_blocks<T>(
-      file, header, [&](void* to, std::size_t bytes) { return reader.read(to, bytes); }, progress);
+  read_blocks<T>(
+      file, header, [&](void* to, std::size_t bytes) { return reader.read(to, bytes); }, sink, progress);
   // One more read: it finds the end, verifies the checksum, and must find nothing.
   char beyond;
   if (reader.read(&beyond, 1) != 0) fail_length(file, fmt::format("more than {} bytes", expected), expected);
-  return samples;
 }
 
 /// The sample that `word` writes; nothing where it is none of type T.
@@ -167,8 +201,8 @@ class WordReader {
   std::size_t position_ = 0;
 };
 
-template <class T>
-std::vector<T> read_ascii(InputFile& file, const NrrdHeader& header, const Progress& progress) {
+template <class T, class Sink>
+void read_ascii(InputFile& file, const NrrdHeader& header, Sink& sink, const Progress& progress) {
   if (std::uint64_t(header.byte_skip) > file.remaining()) {
     throw InputError(fmt::format("{}: field 'byte skip': found {}, expected at most the {} bytes that there are",
                                  file.path(), header.byte_skip, file.remaining()));
@@ -182,63 +216,93 @@ std::vector<T> read_ascii(InputFile& file, const NrrdHeader& header, const Progr
   if (header.sample_count > most) fail_count(fmt::format("at most {} numbers", most));
 
   WordReader words(file);
-  std::vector<T> samples;
-  samples.reserve(std::size_t(header.sample_count));
-  while (samples.size() < header.sample_count) {
-    if (samples.size() % (1 << 16) == 0) report(progress, double(samples.size()) / double(header.sample_count));
-    const std::string_view word = words.next();
-    if (word.empty()) fail_count(fmt::format("{} numbers", samples.size()));
-    const std::optional<T> sample = parse_sample<T>(word);
-    if (!sample) {
-      throw InputError(fmt::format("{}: sample {} is {}, expected a number of type {}", file.path(), samples.size(),
-                                   quoted(word), sample_type_name(header.type)));
+  for (std::uint64_t number = 0; number < header.sample_count;) {
+    report(progress, double(number) / double(header.sample_count));
+    const std::span<T> block = sink.room(block_count<T>(header, number));
+    for (T& to : block) {
+      const std::string_view word = words.next();
+      if (word.empty()) fail_count(fmt::format("{} numbers", number));
+      const std::optional<T> sample = parse_sample<T>(word);
+      if (!sample) {
+        throw InputError(fmt::format("{}: sample {} is {}, expected a number of type {}", file.path(), number,
+                                     quoted(word), sample_type_name(header.type)));
+      }
+      to = *sample;
+      ++number;
     }
-    samples.push_back(*sample);
+    sink.keep(block);
   }
   if (!words.next().empty()) fail_count("more numbers");
-  return samples;
 }
 
-template <class T>
-std::vector<T> read_type(InputFile& file, const NrrdHeader& header, const Progress& progress) {
+template <class T, class Sink>
+void read_type(InputFile& file, const NrrdHeader& header, Sink& sink, const Progress& progress) {
   switch (header.encoding) {
     case NrrdEncoding::raw:
-      return read_raw<T>(file, header, progress);
+      return read_raw<T>(file, header, sink, progress);
     case NrrdEncoding::gzip:
-      return read_gzip<T>(file, header, progress);
+      return read_gzip<T>(file, header, sink, progress);
     case NrrdEncoding::ascii:
       break;
   }
-  return read_ascii<T>(file, header, progress);
+  read_ascii<T>(file, header, sink, progress);
 }
 
-Volume::Samples read_any(InputFile& file, const NrrdHeader& header, const Progress& progress) {
-  switch (header.type) {
+/// Calls `read` with a null pointer of the samples' type.
+template <class Read>
+auto with_type(SampleType type, Read read) {
+  switch (type) {
     case SampleType::uint8:
-      return read_type<std::uint8_t>(file, header, progress);
+      return read(static_cast<std::uint8_t*>(nullptr));
     case SampleType::int16:
-      return read_type<std::int16_t>(file, header, progress);
+      return read(static_cast<std::int16_t*>(nullptr));
     case SampleType::uint16:
-      return read_type<std::uint16_t>(file, header, progress);
+      return read(static_cast<std::uint16_t*>(nullptr));
     case SampleType::float32:
       break;
   }
-  return read_type<float>(file, header, progress);
+  return read(static_cast<float*>(nullptr));
+}
+
+/// Moves to the header's data in `file`, behind the lines to be skipped.
+void seek_data(InputFile& file, const NrrdHeader& header) {
+  file.seek(header.data_file.empty() ? header.data_offset : 0);
+  skip_lines(file, header.line_skip);
 }
 
 }  // namespace
 
 Volume::Samples read_nrrd_samples(InputFile& file, const NrrdHeader& header, const Progress& progress) {
-  file.seek(header.data_file.empty() ? header.data_offset : 0);
-  skip_lines(file, header.line_skip);
+  seek_data(file, header);
   try {
-    Volume::Samples samples = read_any(file, header, progress);
-    report(progress, 1.0);
-    return samples;
+    return with_type(header.type, [&]<class T>(T*) {
+      Collector<T> collector{header};
+      read_type<T>(file, header, collector, progress);
+      report(progress, 1.0);
+      return Volume::Samples(std::move(collector.samples));
+    });
   } catch (const std::bad_alloc&) {
     const std::uint64_t bytes = header.sample_count * sample_type_bytes(header.type);
     throw InputError(fmt::format("{}: not enough memory for {} bytes of samples", file.path(), bytes));
   }
+}
+
+void unpack_nrrd_samples(InputFile& file, const NrrdHeader& header, const SampleSink& sink, const Progress& progress) {
+  seek_data(file, header);
+  with_type(header.type, [&]<class T>(T*) {
+    Forwarder<T> forwarder{sink};
+    read_type<T>(file, header, forwarder, progress);
+  });
+  report(progress, 1.0);
+}
+
+std::uint64_t raw_nrrd_begin(InputFile& file, const NrrdHeader& header) {
+  seek_data(file, header);
+  return raw_begin(file, header);
+}
+
+void swap_sample_bytes(Volume::Samples& samples) {
+  std::visit([](auto& s) { swap_bytes(std::span(s)); }, samples);
 }
 
 }  // namespace quincunx

@@ -1,7 +1,7 @@
 // Files cut short, changed at random, or made of nothing: each is read or refused, and nothing else happens.
 #include <random>
 
-#include "io/volume_file.h"
+#include "tests/io/read_twice.h"
 #include "tests/io/test_files.h"
 
 namespace quincunx {
@@ -14,7 +14,7 @@ class DamagedFile : public FileTest {
   /// Reads a file of these bytes. True where it was read, false where an InputError of one line names a file.
   bool reads(std::string_view bytes) {
     try {
-      read_volume(file("v.nrrd", bytes));
+      read_twice(file("v.nrrd", bytes));
       return true;
     } catch (const InputError& error) {
       const std::string message = error.what();
@@ -80,7 +80,7 @@ TEST_F(DamagedFile, ADetachedFileCutAtAnyByteIsRefused) {
 
 TEST_F(DamagedFile, AnyFlippedBitOfAGzipStreamIsNoticedOrOfNoConsequence) {
   const std::string head = cartesian_fields + "encoding: gzip\n\n", stream = gzipped(sample_bytes());
-  const Volume whole = read_volume(file("v.nrrd", head + stream));
+  const Volume whole = read_twice(file("v.nrrd", head + stream));
   int read = 0;
   for (std::size_t byte = 0; byte < stream.size(); ++byte) {
     for (int bit = 0; bit < 8; ++bit) {
@@ -88,7 +88,7 @@ TEST_F(DamagedFile, AnyFlippedBitOfAGzipStreamIsNoticedOrOfNoConsequence) {
       damaged[byte] = char(damaged[byte] ^ (1 << bit));
       if (!reads(head + damaged)) continue;
       ++read;
-      EXPECT_EQ(read_volume(path("v.nrrd")).samples, whole.samples) << "byte " << byte << " bit " << bit;
+      EXPECT_EQ(read_twice(path("v.nrrd")).samples, whole.samples) << "byte " << byte << " bit " << bit;
     }
   }
   // The header's time, extra flags, system and text flag mean nothing, nor do up to 7 bits that fill a byte.

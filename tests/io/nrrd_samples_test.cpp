@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "io/volume_file.h"
+#include "tests/io/read_twice.h"
 #include "tests/io/test_files.h"
 
 namespace quincunx {
@@ -33,10 +34,10 @@ class NrrdSamples : public FileTest {
  protected:
   template <class T>
   std::vector<T> read(std::string_view bytes) {
-    return std::get<std::vector<T>>(read_volume(file("v.nrrd", bytes)).samples);
+    return std::get<std::vector<T>>(read_twice(file("v.nrrd", bytes)).samples);
   }
   std::string refusal(std::string_view bytes) {
-    const std::string message = error_of([&] { read_volume(file("v.nrrd", bytes)); });
+    const std::string message = error_of([&] { read_twice(file("v.nrrd", bytes)); });
     EXPECT_THAT(message, HasSubstr(path("v.nrrd")));
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
@@ -160,7 +161,7 @@ TEST_F(NrrdSamples, WhatDeflatePacksBestIsStillRead) {
 TEST_F(NrrdSamples, ADetachedHeaderFindsItsDataBesideIt) {
   file("v.raw", "abc");
   const auto samples = [&](const std::string& lines) {
-    return std::get<std::vector<std::uint8_t>>(read_volume(file("v.nhdr", header("uchar", 3, lines))).samples);
+    return std::get<std::vector<std::uint8_t>>(read_twice(file("v.nhdr", header("uchar", 3, lines))).samples);
   };
   EXPECT_THAT(samples("encoding: raw\ndata file: v.raw\n"), ElementsAre('a', 'b', 'c'));
   file("v.raw.gz", gzipped("abc"));
@@ -200,9 +201,9 @@ TEST_F(NrrdSamples, LinesAndBytesBeforeTheSamplesAreSkipped) {
 }
 
 TEST_F(NrrdSamples, AFileThatIsNoneIsRefused) {
-  EXPECT_THAT(error_of([&] { read_volume(path("missing.nrrd")); }),
+  EXPECT_THAT(error_of([&] { read_twice(path("missing.nrrd")); }),
               HasSubstr("missing.nrrd: cannot be read: No such file"));
-  EXPECT_THAT(error_of([&] { read_volume(path(".")); }), HasSubstr("a folder"));
+  EXPECT_THAT(error_of([&] { read_twice(path(".")); }), HasSubstr("a folder"));
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
 }
 
