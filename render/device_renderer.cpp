@@ -120,7 +120,7 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
 void DeviceRenderer::prepare_bounds(RenderStats& stats, const Progress& progress) {
   if (bounds_) return;
   const Stopwatch watch;
-  bounds_.emplace(bcc7_bounds(*coefficients_, progress));
+  bounds_.emplace(cell_bounds(*spline_, *coefficients_, progress));
   stats.bounds_ms = watch.ms();
 }
 

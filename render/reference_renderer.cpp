@@ -34,7 +34,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   const bool skips = request.skip.structure != "none";
   if (skips && !cells_) {
     const Stopwatch watch;
-    cells_ = bcc7_bounds(narrowed(*coefficients_), progress);
+    cells_ = cell_bounds(*spline_, narrowed(*coefficients_), progress);
     stats.bounds_ms = watch.ms();
   }
 

@@ -11,7 +11,7 @@ namespace {
 
 TEST(BlockBounds, AreTheMinAndMaxOfTheirCellsForEveryBlockSize) {
   for (const Extents& extents : {Extents(19, 11, 7), Extents(1, 1, 140), Extents(150, 2, 1), Extents(1, 1, 1)}) {
-    const CellBounds cells = bcc7_bounds(smooth_coefficients(extents));
+    const CellBounds cells = bounds_of(smooth_coefficients(extents));
     for (int block = 1; block <= 256; block *= 2) {
       const BlockBounds b = block_bounds(cells, block);
       ASSERT_EQ(b.blocks, (cells.cells + std::int64_t(block - 1)) / std::int64_t(block));
@@ -33,7 +33,7 @@ TEST(BlockBounds, AreTheMinAndMaxOfTheirCellsForEveryBlockSize) {
 }
 
 TEST(BlockBounds, OfASizeThatIsNoPowerOfTwoUpTo256AreRefused) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({2, 2, 2}));
+  const CellBounds cells = bounds_of(smooth_coefficients({2, 2, 2}));
   for (int block : {-4, 0, 3, 12, 512}) {
     try {
       block_bounds(cells, block);

@@ -41,20 +41,20 @@ void expect_levels(const CellBounds& cells, int block, const std::vector<double>
 }
 
 TEST(Classification, GivesEveryBlockTheLevelOfTheDefinition) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({19, 18, 17}));
+  const CellBounds cells = bounds_of(smooth_coefficients({19, 18, 17}));
   for (int block : {1, 2, 8, 64})
     for (int count : {0, 1, 2, 5, 30, 254}) expect_levels(cells, block, isovalues_across(cells, count));
 }
 
 TEST(Classification, OfSmallAndHugeNumbersAndConstantsIsThatOfTheDefinition) {
   for (const CoefficientSet& set : coefficient_sets()) {
-    const CellBounds cells = bcc7_bounds(set.c);
+    const CellBounds cells = bounds_of(set.c);
     for (int count : {1, 7}) expect_levels(cells, 2, isovalues_across(cells, count));
   }
 }
 
 TEST(Classification, AnIsovalueEqualToAnEndOfAnIntervalTouchesItAndTheNextNumberBeyondDoesNot) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({9, 9, 9}));
+  const CellBounds cells = bounds_of(smooth_coefficients({9, 9, 9}));
   const BlockBounds bounds = block_bounds(cells, 4);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < bounds.min.size(); n += 7) {
@@ -68,7 +68,7 @@ TEST(Classification, AnIsovalueEqualToAnEndOfAnIntervalTouchesItAndTheNextNumber
 }
 
 TEST(Classification, OfMoreThan254IsovaluesIsRefused) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({2, 2, 2}));
+  const CellBounds cells = bounds_of(smooth_coefficients({2, 2, 2}));
   const BlockBounds blocks = block_bounds(cells, 1);
   EXPECT_NO_THROW(classify(blocks, cells, ranges_of(isovalues_across(cells, 254))));
   try {

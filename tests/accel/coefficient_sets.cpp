@@ -5,17 +5,19 @@
 
 namespace quincunx {
 
-Coefficients<float> make_coefficients(const Extents& extents,
-                                      const std::function<double(int, const glm::i64vec3&)>& value) {
+Coefficients<float> make_coefficients(const Extents& extents, const std::function<double(int, const glm::i64vec3&)>& value,
+                                      LatticeKind lattice) {
   Coefficients<float> c;
+  c.lattice = lattice;
   c.extents = extents;
-  c.apron = 1;
-  c.data.resize(std::size_t(2 * c.stride_coset()));
+  c.apron = lattice == LatticeKind::bcc ? 1 : 2;
+  c.data.resize(std::size_t(coset_count(lattice) * c.stride_coset()));
+  const glm::i64vec3 low(-c.apron), high = extents + std::int64_t(c.apron);
   const auto fill = [&](bool inside) {
-    for (int coset = 0; coset < 2; ++coset)
-      for (std::int64_t k = -1; k <= extents.z; ++k)
-        for (std::int64_t j = -1; j <= extents.y; ++j)
-          for (std::int64_t i = -1; i <= extents.x; ++i) {
+    for (int coset = 0; coset < coset_count(lattice); ++coset)
+      for (std::int64_t k = low.z; k < high.z; ++k)
+        for (std::int64_t j = low.y; j < high.y; ++j)
+          for (std::int64_t i = low.x; i < high.x; ++i) {
             const glm::i64vec3 p(i, j, k), q = glm::clamp(p, glm::i64vec3(0), extents - std::int64_t(1));
             if (inside && p == q) c.data[c.number(coset, p)] = float(value(coset, p));
             if (!inside) c.data[c.number(coset, p)] = c.data[c.number(coset, q)];
@@ -33,7 +35,8 @@ Coefficients<double> in_double(const Coefficients<float>& c) {
   return d;
 }
 
-std::vector<CoefficientSet> coefficient_sets() {
+std::vector<CoefficientSet> coefficient_sets(LatticeKind lattice) {
+  const int last_coset = coset_count(lattice) - 1;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto noise = [&](double middle, double amplitude) {
@@ -44,8 +47,8 @@ std::vector<CoefficientSet> coefficient_sets() {
   const auto sign = [&](int, const glm::i64vec3&) { return uniform(random) < 0.0 ? -1.0 : 1.0; };
   const auto by_coset = [](int coset, const glm::i64vec3&) { return coset == 0 ? 1.0 : -1.0; };
   const auto checkerboard = [](int, const glm::i64vec3& p) { return (p.x + p.y + p.z) % 2 == 0 ? 3.0 : -3.0; };
-  const auto spike = [](int coset, const glm::i64vec3& p) {
-    return coset == 1 && p == glm::i64vec3(4, 3, 2) ? 1e6 : 1.0;
+  const auto spike = [&](int coset, const glm::i64vec3& p) {
+    return coset == last_coset && p == glm::i64vec3(4, 3, 2) ? 1e6 : 1.0;
   };
   const auto ramp = [](int coset, const glm::i64vec3& p) {
     return double(coset) + 2.0 * double(p.x) + 10.0 * double(p.z);
@@ -54,14 +57,14 @@ std::vector<CoefficientSet> coefficient_sets() {
   std::vector<CoefficientSet> sets;
   const auto add = [&](const char* name, const Extents& extents,
                        const std::function<double(int, const glm::i64vec3&)>& f) {
-    sets.push_back({name, make_coefficients(extents, f)});
+    sets.push_back({name, make_coefficients(extents, f, lattice)});
   };
   add("noise", {19, 11, 7}, noise(0.0, 1.0));
   add("noise longer than a register block", {70, 5, 3}, noise(100.0, 30.0));
   add("noise on a large offset", {9, 10, 11}, noise(1e5, 1e-2));
   add("random signs", {13, 9, 10}, sign);
-  add("cosets of opposite sign", {5, 9, 6}, by_coset);
-  add("checkerboard of both cosets", {8, 7, 9}, checkerboard);
+  if (lattice == LatticeKind::bcc) add("cosets of opposite sign", {5, 9, 6}, by_coset);
+  add("checkerboard of every coset", {8, 7, 9}, checkerboard);
   add("one spike", {9, 8, 5}, spike);
   add("ramp", {6, 6, 6}, ramp);
   add("constant", {5, 4, 3}, [](int, const glm::i64vec3&) { return 0.7; });
@@ -75,14 +78,17 @@ std::vector<CoefficientSet> coefficient_sets() {
   return sets;
 }
 
-Coefficients<float> smooth_coefficients(const Extents& extents) {
+Coefficients<float> smooth_coefficients(const Extents& extents, LatticeKind lattice) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
-  return make_coefficients(extents, [&](int coset, const glm::i64vec3& p) {
-    const glm::dvec3 u = 2.0 * glm::dvec3(p) + double(coset);
+  const auto value = [&](int coset, const glm::i64vec3& p) {
+    const glm::dvec3 u = double(lattice_step(lattice)) * glm::dvec3(p) + double(coset);
     return 1000.0 + 300.0 * std::sin(0.21 * u.x) * std::cos(0.17 * u.y) + 200.0 * std::sin(0.13 * u.z + 0.1 * u.x) +
            2.0 * noise(random);
-  });
+  };
+  return make_coefficients(extents, value, lattice);
 }
+
+CellBounds bounds_of(const Coefficients<float>& c) { return cell_bounds(*make_spline("bcc7"), c); }
 
 }  // namespace quincunx

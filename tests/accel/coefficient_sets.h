@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "spline/coefficients.h"
+#include "accel/bounds.h"
 
 namespace quincunx {
 
-/// BCC coefficients with an apron of one sample that repeats the border; value(coset, index) is rounded to float.
-Coefficients<float> make_coefficients(const Extents& extents,
-                                      const std::function<double(int, const glm::i64vec3&)>& value);
+/// Coefficients with an apron that repeats the border, of one sample for BCC and of two, enough for axes of one sample, for Cartesian;
+/// value(coset, index) is rounded to float.
+Coefficients<float> make_coefficients(const Extents& extents, const std::function<double(int, const glm::i64vec3&)>& value,
+                                      LatticeKind lattice = LatticeKind::bcc);
 
 /// The same numbers in double.
 Coefficients<double> in_double(const Coefficients<float>& c);
@@ -23,9 +24,12 @@ struct CoefficientSet {
 
 /// Noise, alternating signs, spikes, constants, tiny and huge numbers, on extents that no block divides and on axes of
 /// one sample.
-std::vector<CoefficientSet> coefficient_sets();
+std::vector<CoefficientSet> coefficient_sets(LatticeKind lattice = LatticeKind::bcc);
 
 /// Smooth with some noise: like a scan.
-Coefficients<float> smooth_coefficients(const Extents& extents);
+Coefficients<float> smooth_coefficients(const Extents& extents, LatticeKind lattice = LatticeKind::bcc);
+
+/// Bounds of the bcc7 spline.
+CellBounds bounds_of(const Coefficients<float>& c);
 
 }  // namespace quincunx

@@ -36,7 +36,7 @@ void expect_occupancy(const CellBounds& cells, const std::vector<double>& isoval
 }
 
 TEST(Occupancy, HasTheBitsOfTheCellsThatTouchAnIsovalueAndNoneOutside) {
-  const CellBounds cells = bcc7_bounds(smooth_coefficients({19, 10, 8}));
+  const CellBounds cells = bounds_of(smooth_coefficients({19, 10, 8}));
   const double range = cells.value(65535) - cells.low;
   for (int count : {0, 1, 3, 8, 9, 40}) {  // few are compared one by one, many looked up
     std::vector<double> isovalues;
@@ -47,7 +47,7 @@ TEST(Occupancy, HasTheBitsOfTheCellsThatTouchAnIsovalueAndNoneOutside) {
 
 TEST(Occupancy, TouchesAtEqualityAndAtNoNumberBeyondTheRange) {
   for (const CoefficientSet& set : coefficient_sets()) {
-    const CellBounds cells = bcc7_bounds(set.c);
+    const CellBounds cells = bounds_of(set.c);
     const std::size_t n = cells.min.size() / 2;
     expect_occupancy(cells, {cells.value(cells.min[n])});
     expect_occupancy(cells, {cells.value(cells.max[n])});

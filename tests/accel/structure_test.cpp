@@ -16,7 +16,7 @@ struct Example {
   Example(int block, double isovalue)
       : blocks(block_bounds(cells, block)), classification(classify(blocks, cells, ranges_of(std::vector{isovalue}))), thresholds(cells, ranges_of(std::vector{isovalue})) {}
 
-  CellBounds cells = bcc7_bounds(smooth_coefficients({9, 7, 5}));
+  CellBounds cells = bounds_of(smooth_coefficients({9, 7, 5}));
   BlockBounds blocks;
   Classification classification;
   Thresholds thresholds;

@@ -141,7 +141,7 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   const auto spline = make_spline("bcc7");
   const Coefficients<float> coefficients = spline->coefficients_float(v.volume, Spline::Prefilter::quasi_interpolation, {});
   const Renderer::Request request = request_for(v.volume, v.isovalue);
-  const CellBounds cells = shrunken(bcc7_bounds(coefficients), shrink);
+  const CellBounds cells = shrunken(cell_bounds(*spline, coefficients), shrink);
   const std::vector<double> isovalues{v.isovalue};
 
   DeviceSkipping skipping(device);

@@ -1,0 +1,132 @@
+#include "float_kernel.h"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "float_piece.h"
+
+namespace quincunx {
+namespace {
+
+/// bcc7: a tetrahedron.
+class Quartic final : public FloatKernel {
+ public:
+  Quartic(const Coefficients<float>& c, const Tetrahedron& tetrahedron) : tetrahedron_(tetrahedron), piece_(c, tetrahedron) {}
+
+  float value(const glm::dvec3& u) const override { return piece_.value(glm::vec3(tetrahedron_.frame(u))); }
+  std::vector<float> bernstein(const glm::dvec3& a, const glm::dvec3& b) const override {
+    const auto five = piece_.bernstein(glm::vec3(tetrahedron_.frame(a)), glm::vec3(tetrahedron_.frame(b)));
+    return {five.begin(), five.end()};
+  }
+  glm::dvec3 vertex(int n) const override { return glm::dvec3(tetrahedron_.vertex(n % 4)); }
+
+ private:
+  Tetrahedron tetrahedron_;
+  FloatPiece piece_;
+};
+
+/// A cell of a Cartesian lattice.
+class Cube : public FloatKernel {
+ public:
+  Cube(const Coefficients<float>& c, const glm::ivec3& cell) : c_(c), cell_(cell) {}
+  glm::dvec3 vertex(int n) const override { return glm::dvec3(cell_ + glm::ivec3(n & 1, n >> 1 & 1, n >> 2 & 1)); }
+
+ protected:
+  float sample(int i, int j, int k) const { return c_.data[c_.number(0, glm::i64vec3(cell_ + glm::ivec3(i, j, k)))]; }
+  glm::vec3 own(const glm::dvec3& u) const { return glm::vec3(u - glm::dvec3(cell_)); }
+
+ private:
+  const Coefficients<float>& c_;
+  glm::ivec3 cell_;
+};
+
+class Linear final : public Cube {
+ public:
+  using Cube::Cube;
+  float value(const glm::dvec3& u) const override {
+    const glm::vec3 w = own(u);
+    return polynomial(w.x, w.y, w.z);
+  }
+  std::vector<float> bernstein(const glm::dvec3& from, const glm::dvec3& to) const override {
+    const glm::vec3 a = own(from), b = own(to);
+    const auto f = [this](float x, float y, float z) { return polynomial(x, y, z); };
+    return {f(a.x, a.y, a.z), (f(b.x, a.y, a.z) + f(a.x, b.y, a.z) + f(a.x, a.y, b.z)) * (1.0f / 3.0f),
+            (f(a.x, b.y, b.z) + f(b.x, a.y, b.z) + f(b.x, b.y, a.z)) * (1.0f / 3.0f), f(b.x, b.y, b.z)};
+  }
+
+ private:
+  static float mix(float a, float b, float t) { return a + t * (b - a); }
+  float polynomial(float x, float y, float z) const {
+    const auto edge = [&](int j, int k) { return mix(sample(0, j, k), sample(1, j, k), x); };
+    return mix(mix(edge(0, 0), edge(1, 0), y), mix(edge(0, 1), edge(1, 1), y), z);
+  }
+};
+
+/// Weights 6 times too large, so the values are divided by 216 at the end.
+class Cubic final : public Cube {
+ public:
+  using Cube::Cube;
+  float value(const glm::dvec3& u) const override {
+    const glm::vec3 w = own(u);
+    const Weights x = at(w.x), y = at(w.y), z = at(w.z);
+    float sum = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+      float plane = 0.0f;
+      for (int j = 0; j < 4; ++j) {
+        float row = 0.0f;
+        for (int i = 0; i < 4; ++i) row += x[i] * sample(i - 1, j - 1, k - 1);
+        plane += y[j] * row;
+      }
+      sum += z[k] * plane;
+    }
+    return sum * (1.0f / 216.0f);
+  }
+  std::vector<float> bernstein(const glm::dvec3& from, const glm::dvec3& to) const override {
+    const glm::vec3 a = own(from), b = own(to);
+    const auto x = along(a.x, b.x), y = along(a.y, b.y), z = along(a.z, b.z);
+    std::vector<float> sum(10);
+    for (int k = 0; k < 4; ++k) {
+      float plane[7] = {};
+      for (int j = 0; j < 4; ++j)
+        for (int m = 0; m < 4; ++m) {
+          float row = 0.0f;
+          for (int i = 0; i < 4; ++i) row += x[i][m] * sample(i - 1, j - 1, k - 1);
+          for (int n = 0; n < 4; ++n) plane[m + n] += row * y[j][n];
+        }
+      for (int m = 0; m < 7; ++m)
+        for (int n = 0; n < 4; ++n) sum[std::size_t(m + n)] += plane[m] * z[k][n];
+    }
+    const float binomials[10] = {1, 9, 36, 84, 126, 126, 84, 36, 9, 1};
+    for (int m = 0; m < 10; ++m) sum[std::size_t(m)] *= 1.0f / 216.0f / binomials[m];
+    return sum;
+  }
+
+ private:
+  using Weights = std::array<float, 4>;
+  static Weights at(float x) {
+    const float y = 1.0f - x;
+    return {y * y * y, 4.0f + x * x * (3.0f * x - 6.0f), 4.0f + y * y * (3.0f * y - 6.0f), x * x * x};
+  }
+  /// Polar forms of the weights at (p,p,p), (p,p,q), (p,q,q), (q,q,q), times 1, 3, 3, 1.
+  static Weights outer(float p, float q) { return {p * p * p, 3.0f * (p * p * q), 3.0f * (p * q * q), q * q * q}; }
+  static Weights inner(float p, float q) {
+    const auto polar = [](float a, float b, float c) { return 4.0f - 2.0f * (a * b + b * c + c * a) + 3.0f * (a * b * c); };
+    return {polar(p, p, p), 3.0f * polar(p, p, q), 3.0f * polar(p, q, q), polar(q, q, q)};
+  }
+  static std::array<Weights, 4> along(float p, float q) {
+    return {outer(1.0f - p, 1.0f - q), inner(p, q), inner(1.0f - p, 1.0f - q), outer(p, q)};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficients<float>& c, const glm::ivec3& cell,
+                                          const glm::dvec3& u) {
+  if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
+  if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
+  if (spline.name() == "tricubic") return std::make_unique<Cubic>(c, cell);
+  throw std::logic_error("no kernel in floats for spline " + std::string(spline.name()));
+}
+
+}  // namespace quincunx
