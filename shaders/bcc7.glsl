@@ -8,6 +8,8 @@
 #include "bcc7_tables.glsl"
 
 const float SPLINE_SCALE = BCC7_SCALE;
+#define SPLINE_DEGREE 4
+#define SPLINE_CUTS 3
 
 // A cell and where its samples are.
 struct SplineCell {
@@ -28,8 +30,9 @@ SplineCell spline_cell(ivec3 cell, vec3 centre) {
   c.even = vec3(e) - centre;
   c.sign = vec3(s);
   c.stride = s * stride;
-  c.E = parameters.strides.w + e2.x + e2.y * stride.y + e2.z * stride.z;
-  c.O = parameters.strides.w + parameters.strides.z + o2.x + o2.y * stride.y + o2.z * stride.z;
+  int origin = coefficient_origin(cell);
+  c.E = origin + e2.x + e2.y * stride.y + e2.z * stride.z;
+  c.O = origin + parameters.strides.z + o2.x + o2.y * stride.y + o2.z * stride.z;
   return c;
 }
 
@@ -101,7 +104,7 @@ vec3 spline_cuts(vec3 start, vec3 d, float len) {
   BCC7_MONOMIALS
 
 // Bernstein coefficients (SPLINE_SCALE times, less `offset`) along a..a+d, which lies in the tetrahedron of `order`.
-void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float offset, out float b[5]) {
+void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float offset, out float b[SPLINE_DEGREE + 1]) {
   SPLINE_POLYNOMIAL(cell, order)
   c000 -= offset;
   vec3 p = in_order(order, a);
@@ -109,7 +112,9 @@ void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float off
   BCC7_RESTRICT(b[0], b[1], b[2], b[3], b[4], p.x, p.y, p.z, q.x, q.y, q.z)
 }
 
-#if defined(MARCH) || defined(NORMAL_CENTRAL)
+#define SPLINE_GRADIENT(w) vec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
+
+#if defined(MARCH) || defined(NORMAL_CENTRAL) || defined(VOLUME)
 // SPLINE_SCALE times the value at u, less `offset`.
 float spline_value(SplineCell cell, vec3 u, float offset) {
   AxisOrder order = axis_order(u);
@@ -120,15 +125,22 @@ float spline_value(SplineCell cell, vec3 u, float offset) {
   return f;
 }
 
-// The same at a point of the domain, relative to the domain's centre.
-float spline_value_at(vec3 p, vec3 centre, float offset) {
-  ivec3 at = clamp(ivec3(floor(p + centre)), ivec3(0), parameters.cells.xyz - 1);
-  SplineCell cell = spline_cell(at, centre);
-  return spline_value(cell, cell_point(cell, p, vec3(0.0), 0.0), offset);
-}
+#include "spline_at.glsl"
 #endif
 
-#define SPLINE_GRADIENT(w) vec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
+#ifdef VOLUME
+// SPLINE_SCALE times the value at u, less `offset`, and the gradient of lattice coordinates.
+void spline_jet(SplineCell cell, vec3 u, float offset, out float value, out vec3 gradient) {
+  AxisOrder order = axis_order(u);
+  SPLINE_POLYNOMIAL(cell, order)
+  c000 -= offset;
+  vec3 w = in_order(order, u);
+  precise float f = BCC7_VALUE(w.x, w.y, w.z);
+  precise vec3 g = SPLINE_GRADIENT(w);
+  value = f;
+  gradient = cell.sign * out_of_order(order, g);
+}
+#endif
 
 // A gradient of any length at u, in lattice coordinates, after one Newton step `t` along d (lattice coordinates)
 // towards the value 0 of the polynomial of `order` less `offset`. A step longer than `longest` is not made.

@@ -52,3 +52,7 @@ float coefficient(int number) {
   return c;
 #endif
 }
+
+// Number of the coefficient (coset 0; 0,0,0), as an evaluation in `cell` counts: (coset; i,j,k) has the number
+// origin + coset strides.z + i + j strides.x + k strides.y.
+int coefficient_origin(ivec3 cell) { return parameters.strides.w; }

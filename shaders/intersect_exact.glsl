@@ -62,49 +62,55 @@ void enter_cell(Ray ray, inout Caster caster, bool wanted, uint break_at) {
   caster.walk.cell = found ? next_cell(ray, cell, leave) : caster.walk.cell;
 }
 
+#if SPLINE_CUTS == 0
+// A cell is one piece.
+float piece_end(Ray ray, SplineCell cell, vec3 from, float len, float done) { return len; }
+#else
 // Where the piece that begins at `done` ends.
-float piece_end(vec3 cuts, float len, float done) {
+float piece_end(Ray ray, SplineCell cell, vec3 from, float len, float done) {
+  vec3 cuts = spline_cuts(from, cell.sign * ray.d, len);
   float after = done + SHORTEST_PIECE;
   float end = cuts.z > after ? cuts.z : len;
   end = cuts.y > after ? cuts.y : end;
   return cuts.x > after ? cuts.x : end;
 }
+#endif
 
 // A piece's Bernstein coefficients as distances to an isovalue: positive on the ray's side of it.
-struct Distances {
-  float h0, h1, h2, h3, h4;
-};
-Distances distances(float b[5], float isovalue, bool upwards, bool crossed) {
-  float s = upwards ? -1.0 : 1.0;
-  Distances h = Distances(s * (b[0] - isovalue), s * (b[1] - isovalue), s * (b[2] - isovalue), s * (b[3] - isovalue), s * (b[4] - isovalue));
+float[SPLINE_DEGREE + 1] distances(float b[SPLINE_DEGREE + 1], float isovalue, bool upwards, bool crossed) {
+  float h[SPLINE_DEGREE + 1] = scaled_differences(b, isovalue, upwards ? -1.0 : 1.0);
 #ifdef COMPOSITE
-  float size = max(max(abs(b[0]), abs(b[4])), max(abs(b[1]), max(abs(b[2]), abs(b[3])))) + abs(scaled_isovalue(0));
+  float size = abs(b[0]);
+  for (int i = 1; i <= SPLINE_DEGREE; ++i) size = max(size, abs(b[i]));
+  size += abs(scaled_isovalue(0));
   float rounding = crossed ? HIT_ROUNDING * size : 0.0;
-  h = Distances(h.h0 + rounding, h.h1 + rounding, h.h2 + rounding, h.h3 + rounding, h.h4 + rounding);
-  // The root at 0 is known; behind it the polynomial leaves 0 as h1 says.
-  h.h0 = crossed ? max(h.h0, max(1e-3 * h.h1, 1e-30)) : h.h0;
+  for (int i = 0; i <= SPLINE_DEGREE; ++i) h[i] += rounding;
+  // The root at 0 is known; behind it the polynomial leaves 0 as h[1] says.
+  h[0] = crossed ? max(h[0], max(1e-3 * h[1], 1e-30)) : h[0];
 #endif
   return h;
 }
 // The isovalue itself belongs to the side above it.
-bool may_cross(Distances h, bool upwards) {
-  float least = min(min(h.h0, h.h4), min(h.h1, min(h.h2, h.h3)));
+bool may_cross(float h[SPLINE_DEGREE + 1], bool upwards) {
+  float least = least_of(h);
   return least < 0.0 || (upwards && least == 0.0);
 }
-float root_of(Distances h) { return h.h0 <= 0.0 ? 0.0 : first_root(h.h0, h.h1, h.h2, h.h3, h.h4); }
+float root_of(float h[SPLINE_DEGREE + 1]) { return h[0] <= 0.0 ? 0.0 : first_root(h); }
 
 #if ISOVALUES == 1
 #define EXACT_OFFSET scaled_isovalue(0)
 
-bool piece_may_cross(int level, float b[5], bool crossed) { return may_cross(distances(b, 0.0, level == 0, crossed), level == 0); }
-float piece_root(int level, float b[5], bool crossed, out int surface) {
+bool piece_may_cross(int level, float b[SPLINE_DEGREE + 1], bool crossed) {
+  return may_cross(distances(b, 0.0, level == 0, crossed), level == 0);
+}
+float piece_root(int level, float b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
   surface = 0;
   return root_of(distances(b, 0.0, level == 0, crossed));
 }
 #else
 #define EXACT_OFFSET 0.0
 
-bool piece_may_cross(int level, float b[5], bool crossed) {
+bool piece_may_cross(int level, float b[SPLINE_DEGREE + 1], bool crossed) {
   int above = min(level, parameters.cells.w - 1);
   int below = max(level - 1, 0);
   bool up = level < parameters.cells.w && may_cross(distances(b, scaled_isovalue(above), true, crossed), true);
@@ -112,11 +118,11 @@ bool piece_may_cross(int level, float b[5], bool crossed) {
   return up || down;
 }
 // The earlier of the crossings of the next isovalue above and of the one below.
-float piece_root(int level, float b[5], bool crossed, out int surface) {
+float piece_root(int level, float b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
   int above = min(level, parameters.cells.w - 1);
   int below = max(level - 1, 0);
-  Distances up = distances(b, scaled_isovalue(above), true, crossed);
-  Distances down = distances(b, scaled_isovalue(below), false, crossed);
+  float up[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(above), true, crossed);
+  float down[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(below), false, crossed);
   float r_up = level < parameters.cells.w && may_cross(up, true) ? root_of(up) : -1.0;
   float r_down = level > 0 && may_cross(down, false) ? root_of(down) : -1.0;
   bool take_up = r_up >= 0.0 && (r_down < 0.0 || r_up <= r_down);
@@ -129,7 +135,8 @@ float piece_root(int level, float b[5], bool crossed, out int surface) {
 // call again). `others`: whether there is work for lanes that do not seek.
 bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root root) {
   bool seeking = wanted && caster.live;
-  float b[5] = float[5](1.0, 1.0, 1.0, 1.0, 1.0);
+  float b[SPLINE_DEGREE + 1];
+  for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = 1.0;
   float start = 0.0;
   float width = 0.0;
   bool crossed = false;
@@ -142,10 +149,10 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     SplineCell cell = spline_cell(caster.cell, ray.centre);
     vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
     vec3 along = cell.sign * ray.d;
-    float end = piece_end(spline_cuts(from, along, caster.len), caster.len, caster.done);
+    float end = piece_end(ray, cell, from, caster.len, caster.done);
     float span = end - caster.done;
     AxisOrder order = axis_order(from + (caster.done + 0.5 * span) * along);
-    float piece[5];
+    float piece[SPLINE_DEGREE + 1];
     spline_restrict(cell, order, from + caster.done * along, span * along, EXACT_OFFSET, piece);
 #ifdef COST
     caster.evaluations += looking ? 1u : 0u;
@@ -155,7 +162,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     // Keep the piece where a root may be; go on to the next one elsewhere.
     bool behind_hit = caster.entry + caster.done - caster.last_hit < HIT_BAND;
     found = found || (looking && piece_may_cross(caster.level, piece, behind_hit));
-    for (int i = 0; i < 5; ++i) b[i] = looking ? piece[i] : b[i];
+    for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = looking ? piece[i] : b[i];
     start = looking ? caster.done : start;
     width = looking ? span : width;
     crossed = looking ? behind_hit : crossed;

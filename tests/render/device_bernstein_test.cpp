@@ -1,4 +1,4 @@
-// The kernels' root finder on quartics whose roots are known.
+// The kernels' root finders on polynomials whose roots are known.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,96 +10,166 @@
 namespace quincunx {
 namespace {
 
-using DeviceBernsteinTest = DeviceTest;
-using Quartic = std::array<float, 5>;  // Bernstein coefficients on [0,1], the first one positive
+using Polynomial = std::vector<float>;  // Bernstein coefficients on [0,1], the first one positive
 
 constexpr const char* kKernel = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Quartics { float b[]; };
+layout(std430, binding = 0) readonly buffer Polynomials { float coefficient[]; };
 layout(std430, binding = 1) writeonly buffer Roots { float root[]; };
 #include "bernstein.glsl"
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (5u * i + 4u < b.length()) root[i] = first_root(b[5u * i], b[5u * i + 1u], b[5u * i + 2u], b[5u * i + 3u], b[5u * i + 4u]);
+  uint n = gl_GlobalInvocationID.x;
+  if (n >= root.length()) return;
+  float b[SPLINE_DEGREE + 1];
+  for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = coefficient[(SPLINE_DEGREE + 1) * n + i];
+  root[n] = first_root(b);
 })";
 
-std::vector<float> device_roots(const std::vector<Quartic>& quartics) {
-  gpu::Device& device = test_kernels()->device();
-  const auto files = [](std::string_view name) { return name == "test.comp" ? std::string_view(kKernel) : shader_file(name); };
-  const gpu::Pipeline pipeline = gpu::create_pipeline(device, gpu::compile(device, files, {"test.comp", {}}));
-  const gpu::Buffer in = gpu::create_buffer(device, quartics.size() * sizeof(Quartic), gpu::BufferUse::storage, "quartics");
-  const gpu::Buffer out = gpu::create_buffer(device, quartics.size() * sizeof(float), gpu::BufferUse::storage, "roots");
-  gpu::upload(device, in, std::as_bytes(std::span(quartics)));
-  gpu::dispatch(device, pipeline, {{"Quartics", in}, {"Roots", out}}, {}, std::uint32_t((quartics.size() + 63) / 64));
-  std::vector<float> roots(quartics.size());
-  gpu::download(device, out, std::as_writable_bytes(std::span(roots)));
-  return roots;
+/// The degrees along a ray: trilinear, bcc7, tricubic.
+class DeviceBernsteinTest : public DeviceTest, public ::testing::WithParamInterface<int> {
+ protected:
+  std::vector<float> device_roots(const std::vector<Polynomial>& polynomials) const {
+    gpu::Device& device = test_kernels()->device();
+    const auto files = [](std::string_view name) { return name == "test.comp" ? std::string_view(kKernel) : shader_file(name); };
+    const gpu::KernelSource source{"test.comp", {{"SPLINE_DEGREE", std::to_string(GetParam())}}};
+    const gpu::Pipeline pipeline = gpu::create_pipeline(device, gpu::compile(device, files, source));
+    std::vector<float> all;
+    for (const Polynomial& b : polynomials) all.insert(all.end(), b.begin(), b.end());
+    const gpu::Buffer in = gpu::create_buffer(device, all.size() * sizeof(float), gpu::BufferUse::storage, "polynomials");
+    const gpu::Buffer out = gpu::create_buffer(device, polynomials.size() * sizeof(float), gpu::BufferUse::storage, "roots");
+    gpu::upload(device, in, std::as_bytes(std::span(all)));
+    gpu::dispatch(device, pipeline, {{"Polynomials", in}, {"Roots", out}}, {}, std::uint32_t((polynomials.size() + 63) / 64));
+    std::vector<float> roots(polynomials.size());
+    gpu::download(device, out, std::as_writable_bytes(std::span(roots)));
+    return roots;
+  }
+
+  void expect_right(const std::vector<Polynomial>& polynomials) const;
+};
+
+double value_at(const Polynomial& b, double x) {
+  std::vector<double> c(b.begin(), b.end());
+  for (std::size_t n = c.size() - 1; n > 0; --n)
+    for (std::size_t i = 0; i < n; ++i) c[i] += x * (c[i + 1] - c[i]);
+  return c[0];
 }
 
-double value_at(const Quartic& b, double x) {
-  std::array<double, 5> c{b[0], b[1], b[2], b[3], b[4]};
-  for (int n = 4; n > 0; --n)
-    for (int i = 0; i < n; ++i) c[i] += x * (c[i + 1] - c[i]);
-  return c[0];
+/// A product of polynomials in Bernstein form.
+std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto binomial = [](std::size_t n, std::size_t k) {
+    double c = 1.0;
+    for (std::size_t i = 1; i <= k; ++i) c = c * double(n - k + i) / double(i);
+    return c;
+  };
+  const std::size_t m = a.size() - 1, n = b.size() - 1;
+  std::vector<double> c(m + n + 1, 0.0);
+  for (std::size_t i = 0; i <= m; ++i)
+    for (std::size_t j = 0; j <= n; ++j) c[i + j] += a[i] * b[j] * binomial(m, i) * binomial(n, j) / binomial(m + n, i + j);
+  return c;
+}
+Polynomial narrow(const std::vector<double>& b, double scale) {
+  Polynomial p;
+  for (const double c : b) p.push_back(float(scale * c));
+  return p;
 }
 
 /// What is wrong with `root`, or nothing. A value within 1e-6 of the largest coefficient may count as either side, and at
 /// a root 2e-5 may be left to the Newton step that ends every hit.
-std::string complaint(const Quartic& b, float root) {
+std::string complaint(const Polynomial& b, float root) {
   double largest = 0.0;
   for (const float c : b) largest = std::max(largest, std::abs(double(c)));
   const double doubt = 1e-6 * largest;
   const double end = root >= 0.0f ? std::min(1.0, double(root)) : 1.0;
   // Nothing before the root (or anywhere, where none was found) may be on the far side beyond doubt.
-  for (int k = 0; k <= 2000; ++k)
-    if (const double x = end * k / 2000.0; value_at(b, x) < -doubt && x < end - 1e-5) return "passed a root before " + std::to_string(x);
+  for (int k = 0; k <= 1000; ++k)
+    if (const double x = end * k / 1000.0; value_at(b, x) < -doubt && x < end - 1e-5) return "passed a root before " + std::to_string(x);
   if (root >= 0.0f && std::abs(value_at(b, end)) > 2e-5 * largest) return "stopped where the value is " + std::to_string(value_at(b, end));
+  // Where the first crossing is a clear one, it is the root.
+  std::vector<double> crossings;
+  append_crossings(std::vector<double>(b.begin(), b.end()), crossings);
+  if (crossings.empty()) return "";
+  const double x = crossings.front(), slope = (value_at(b, x + 1e-4) - value_at(b, x - 1e-4)) / 2e-4;
+  if (slope < -0.1 * largest && std::abs(root - x) > 2e-5) return "not at the crossing " + std::to_string(x);
   return "";
 }
 
-void expect_right(const std::vector<Quartic>& quartics) {
-  const std::vector<float> roots = device_roots(quartics);
+void DeviceBernsteinTest::expect_right(const std::vector<Polynomial>& polynomials) const {
+  const std::vector<float> roots = device_roots(polynomials);
   int found = 0;
-  for (std::size_t i = 0; i < quartics.size(); ++i) {
+  for (std::size_t i = 0; i < polynomials.size(); ++i) {
     found += roots[i] >= 0.0f;
-    const Quartic& b = quartics[i];
-    ASSERT_EQ(complaint(b, roots[i]), "") << b[0] << " " << b[1] << " " << b[2] << " " << b[3] << " " << b[4] << " root " << roots[i];
+    ASSERT_EQ(complaint(polynomials[i], roots[i]), "") << ::testing::PrintToString(polynomials[i]) << " root " << roots[i];
   }
-  EXPECT_GT(found, int(quartics.size()) / 8);
+  EXPECT_GT(found, int(polynomials.size()) / 8);
 }
 
-TEST_F(DeviceBernsteinTest, FindsTheFirstRootOfRandomQuartics) {
+TEST_P(DeviceBernsteinTest, FindsTheFirstRootOfRandomPolynomials) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
-  std::vector<Quartic> quartics(6000);
-  for (Quartic& b : quartics) {
+  std::vector<Polynomial> polynomials(3000, Polynomial(GetParam() + 1));
+  for (Polynomial& b : polynomials) {
     for (float& c : b) c = normal(random);
     b[0] = std::abs(b[0]) + 1e-3f;
   }
-  expect_right(quartics);
+  expect_right(polynomials);
 }
 
-TEST_F(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
+TEST_P(DeviceBernsteinTest, FindsTheFirstOfAsManyRootsAsThereCanBe) {
+  // prod (x - r_i) with all roots in (0,1), the first one positive at 0.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.02, 0.98);
+  std::vector<Polynomial> polynomials;
+  for (int k = 0; k < 2000; ++k) {
+    std::vector<double> p{1.0};
+    for (int i = 0; i < GetParam(); ++i) {
+      const double r = uniform(random);
+      p = product(p, {r, r - 1.0});
+    }
+    double largest = 0.0;
+    for (const double c : p) largest = std::max(largest, std::abs(c));
+    polynomials.push_back(narrow(p, 1.0 / largest));
+  }
+  expect_right(polynomials);
+}
+
+TEST_P(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
   // (x - r)^2 - e, between steep walls or gentle ones, the far end positive: two roots close together.
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform;
-  std::vector<Quartic> quartics(6000);
-  for (Quartic& b : quartics) {
+  std::vector<Polynomial> polynomials;
+  for (int k = 0; k < 3000; ++k) {
     const double r = 0.1 + 0.8 * uniform(random), e = std::pow(10.0, -6.0 * uniform(random)) * 0.01, tilt = 0.9 * uniform(random);
-    // Quadratic Bernstein coefficients, raised to degree 4 and tilted by the positive factor (1 - tilt x)^2.
-    const double q[3] = {r * r - e, r * r - r - e, (1 - r) * (1 - r) - e}, w[3] = {1.0, 1.0 - tilt, (1.0 - tilt) * (1.0 - tilt)};
-    b = {float(q[0] * w[0]), float((q[0] * w[1] + q[1] * w[0]) / 2), float((q[0] * w[2] + 4 * q[1] * w[1] + q[2] * w[0]) / 6),
-         float((q[1] * w[2] + q[2] * w[1]) / 2), float(q[2] * w[2])};
-    for (float& c : b) c *= 1000.0f;
-    if (b[0] <= 0.0f) b[0] = 1e-3f;
+    // Raised to the degree by the positive factor (1 - tilt x)^(n-2).
+    std::vector<double> p{r * r - e, r * r - r - e, (1 - r) * (1 - r) - e};
+    for (int i = 2; i < GetParam(); ++i) p = product(p, {1.0, 1.0 - tilt});
+    polynomials.push_back(narrow(p, 1000.0));
+    if (polynomials.back()[0] <= 0.0f) polynomials.back()[0] = 1e-3f;
   }
-  expect_right(quartics);
+  expect_right(polynomials);
 }
 
-TEST_F(DeviceBernsteinTest, FindsTheRootsThatAnImageLost) {
+TEST_P(DeviceBernsteinTest, SeesNoRootWhereOneIsJustMissed) {
+  // (x - r)^2 + e with e beyond doubt.
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Polynomial> polynomials;
+  for (int k = 0; k < 2000; ++k) {
+    const double r = uniform(random), e = std::pow(10.0, -4.0 * uniform(random)) * 0.1;
+    std::vector<double> p{r * r + e, r * r - r + e, (1 - r) * (1 - r) + e};
+    while (int(p.size()) <= GetParam()) p = product(p, {1.0, 1.0});
+    polynomials.push_back(narrow(p, 1000.0));
+  }
+  for (const float root : device_roots(polynomials)) ASSERT_EQ(root, -1.0f);
+}
+
+using DeviceQuarticTest = DeviceBernsteinTest;
+TEST_P(DeviceQuarticTest, FindsTheRootsThatAnImageLost) {
   expect_right({{2100.33f, 70.3226f, -692.753f, -220.221f, 1282.43f}, {0.873265f, -12.2934f, -33.2884f, -26.9711f, 48.1246f}});
 }
+
+INSTANTIATE_TEST_SUITE_P(Degrees, DeviceBernsteinTest, ::testing::Values(3, 4, 9));
+INSTANTIATE_TEST_SUITE_P(Degrees, DeviceQuarticTest, ::testing::Values(4));
 
 }  // namespace
 }  // namespace quincunx
