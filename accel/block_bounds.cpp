@@ -61,9 +61,13 @@ void reduce(const Grid& grid, int factor, std::vector<std::uint16_t>& min, std::
 
 }  // namespace
 
-BlockBounds block_bounds(const CellBounds& cells, int block) {
+void check_block(int block) {
   if (block < 1 || block > kMostBlock || !std::has_single_bit(unsigned(block)))
     throw InputError(fmt::format("--block: found {}, expected a power of two from 1 to {}", block, kMostBlock));
+}
+
+BlockBounds block_bounds(const CellBounds& cells, int block) {
+  check_block(block);
   BlockBounds bounds;
   bounds.block = block;
   bounds.blocks = block_count(cells.cells, block);

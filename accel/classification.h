@@ -17,6 +17,8 @@ struct BlockBounds {
   std::vector<std::uint16_t> min, max;  ///< quantised like CellBounds, x fastest
 };
 BlockBounds block_bounds(const CellBounds& cells, int block);
+/// Throws InputError naming --block unless blocks may be of that size.
+void check_block(int block);
 /// The same of larger blocks, made of smaller ones; `block` is a multiple of theirs.
 BlockBounds coarser(const BlockBounds& blocks, int block);
 

@@ -32,6 +32,15 @@ double Volume::sample(int coset, const glm::i64vec3& index) const {
   return std::visit([&](const auto& s) { return double(s[std::size_t(number)]); }, samples);
 }
 
+void check_finite(const SampleRange& range, const Volume& volume, std::string_view what) {
+  if (range.not_finite == 0) return;
+  const auto n = std::int64_t(range.first_not_finite);
+  const Extents& e = volume.extents;
+  const std::string coset = volume.lattice == LatticeKind::bcc ? fmt::format("coset {}, ", n / (e.x * e.y * e.z)) : "";
+  throw InputError(fmt::format("{}: found {} NaN or infinite of {} samples, the first at {}index ({}, {}, {}); expected finite samples",
+                               what, range.not_finite, volume.sample_count(), coset, n % e.x, n / e.x % e.y, n / (e.x * e.y) % e.z));
+}
+
 void check_volume(const Volume& volume, std::string_view what) {
   const std::uint64_t expected = checked_sample_count(volume.lattice, volume.extents, volume.type(), what);
   const std::size_t found = std::visit([](const auto& s) { return s.size(); }, volume.samples);

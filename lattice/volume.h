@@ -49,6 +49,10 @@ struct SampleRange {
 };
 SampleRange sample_range(const Volume& volume);
 
+/// Throws InputError "WHAT: found ..." with their count and the place of the first, where `range`, of the volume's samples, has any that
+/// are not finite. The volume's own samples are not looked at.
+void check_finite(const SampleRange& range, const Volume& volume, std::string_view what);
+
 /// The samples' quantiles at `fractions` (each 0..1), exact order statistics of the finite samples.
 std::vector<double> sample_quantiles(const Volume& volume, std::span<const double> fractions);
 

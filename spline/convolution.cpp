@@ -12,16 +12,7 @@ void check_samples(const Volume& volume, LatticeKind lattice, std::string_view s
     throw InputError(who + "found a volume on the " + std::string(lattice_name(volume.lattice)) + " lattice, expected " +
                      std::string(lattice_name(lattice)));
   check_volume(volume, "spline " + std::string(spline));
-  const SampleRange range = sample_range(volume);
-  if (range.not_finite == 0) return;
-  const auto n = std::int64_t(range.first_not_finite);
-  const Extents& e = volume.extents;
-  const std::string coset =
-      coset_count(lattice) == 1 ? "" : "coset " + std::to_string(n / (e.x * e.y * e.z)) + ", ";
-  throw InputError(who + "found " + std::to_string(range.not_finite) + " NaN or infinite of " +
-                   std::to_string(volume.sample_count()) + " samples, the first at " + coset + "index (" +
-                   std::to_string(n % e.x) + ", " + std::to_string(n / e.x % e.y) + ", " +
-                   std::to_string(n / (e.x * e.y) % e.z) + "); expected finite samples");
+  check_finite(sample_range(volume), volume, "spline " + std::string(spline));
 }
 
 void refuse_overflow(std::string_view spline, std::string_view type) {

@@ -1,0 +1,28 @@
+// Bounds of a volume that need not be in memory, made box by box.
+#pragma once
+
+#include <string_view>
+
+#include "accel/classification.h"
+#include "lattice/sample_source.h"
+
+namespace quincunx {
+
+/// What a pass over all samples finds: their range, the scale of bounds that follows from it, and the bounds of blocks.
+struct StreamedBounds {
+  SampleRange samples;
+  BoundsScale scale;
+  BlockBounds blocks;
+};
+
+/// Bounds of the spline over blocks of `block` cells, certain like block_bounds(cell_bounds(...)) of the whole volume and on a scale that
+/// allows whatever the prefilter may make of such samples. They are wider by up to four of its steps, as margins suppose the largest
+/// coefficient of the volume near every cell, and at the sides of the boxes by up to scale.displacement times the samples' range.
+///
+/// Two passes over the samples, for their range and for the bounds. Beside the result each thread holds one box, of at most 512 x 64 x 64
+/// cells, with what is made of it.
+/// Throws InputError, naming `what`, where samples are NaN or infinite (count and first place), and where they cannot be read.
+StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, int block,
+                               std::string_view what, const Progress& progress = {});
+
+}  // namespace quincunx
