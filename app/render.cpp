@@ -1,4 +1,4 @@
-// quincunx render: isosurfaces of a BCC volume to pictures.
+// quincunx render: isosurfaces of a volume, and the volume itself, to pictures.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "app/command.h"
@@ -48,11 +47,7 @@ void write_outputs(const RenderFlags& flags, const Frame& frame, const std::opti
     stop_if_interrupted();
     write_image(is_exr(path) ? channels : shown_picture, path);
   }
-  if (flags.stats.empty()) return;
-  const std::string text = stats.dump(2) + "\n";
-  AtomicFile file(flags.stats);
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
+  if (!flags.stats.empty()) write_text(stats.dump(2) + "\n", flags.stats);
 }
 
 /// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit
@@ -91,7 +86,7 @@ void render(const RenderFlags& flags) {
   check_render_flags(flags);
   ProgressBar bar(flags.verbosity);
   const Clock::time_point start = Clock::now();
-  const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
+  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"));
   const double read_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 
   const Renderer::Request request = make_request(flags, volume);
@@ -120,7 +115,7 @@ void render(const RenderFlags& flags) {
 
 Command render_command(CLI::App& program) {
   auto flags = std::make_shared<RenderFlags>();
-  CLI::App* app = program.add_subcommand("render", "Render isosurfaces of a BCC volume");
+  CLI::App* app = program.add_subcommand("render", "Render isosurfaces of a volume, or the volume itself through a transfer function");
   app->footer("Example: quincunx render data/mri_head_bcc.nrrd --iso 130 -o head.png -o head.exr");
   add_render_flags(*app, *flags);
   return {app, [flags] { render(*flags); }};

@@ -95,7 +95,14 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
              "First root of the polynomial pieces, or fixed steps")
       ->group(group);
-  add_number(app, "--step", flags.scene.step, {1e-3, 1e3}, "Of march, in cells")->group(group);
+  const auto step = [&flags](const std::string& text) {
+    flags.step = parse_number(text, "--step");
+    if (!(flags.step >= 1e-3 && flags.step <= 1e3)) throw InputError(fmt::format("--step: found {}, expected a number from 0.001 to 1000", text));
+  };
+  add_parsed(app, "--step", step, "NUMBER", "0.25 of march, 1 of a volume", "Of march and of volumes, in cells")->group(group);
+  app.add_option("--spline", flags.config.spline, "Reconstruction: bcc7; trilinear, tricubic for Cartesian volumes")
+      ->type_name("SPLINE")
+      ->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
              "The spline's gradient, or central differences")
       ->group(group);
@@ -153,17 +160,19 @@ bool is_exr(const std::string& path) {
 }
 
 void add_render_flags(CLI::App& app, RenderFlags& flags) {
-  app.add_option("VOLUME", flags.volume, "NRRD file of a BCC volume")->required();
+  app.add_option("VOLUME", flags.volume, "NRRD file of a volume")->required();
   add_output_flags(app, flags);
   add_surface_flags(app, flags);
+  add_volume_flags(app, flags.look);
   add_camera_flags(app, flags.camera);
   add_method_flags(app, flags);
 }
 
 void check_render_flags(const RenderFlags& flags) {
-  if (flags.isovalues.empty()) {
+  check_volume_flags(flags.look);
+  if (flags.isovalues.empty() && flags.look.transfer_function.empty()) {
     throw InputError(
-        "--iso: found none, expected an isovalue; 'quincunx info VOLUME' shows the range and the quantiles");
+        "--iso: found neither an isovalue nor --tf, expected one of them; 'quincunx info VOLUME' shows the range and the quantiles");
   }
   if (!flags.renders() && !flags.explain) {
     throw InputError("-o: found nothing to make, expected -o OUT.png or OUT.exr, --stats, --json or --explain");
@@ -210,6 +219,8 @@ Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
   request.scene.cost = flags.scene.cost || flags.heat != HeatKind::none;
   request.scene.stub_sampling = flags.scene.stub_sampling || flags.heat == HeatKind::depth;
   request.scene.isosurfaces = make_isosurfaces(flags);
+  if (flags.step > 0.0) request.scene.step = flags.step;
+  request.scene.volume = make_direct_volume(flags.look, flags.step > 0.0 ? flags.step : 1.0);
   request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);
   check_scene(request.scene);
   return request;

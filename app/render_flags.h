@@ -9,6 +9,7 @@
 #include "app/heat.h"
 #include "app/progress_bar.h"
 #include "app/skip_flags.h"
+#include "app/volume_flags.h"
 #include "render/renderer.h"
 
 namespace quincunx {
@@ -20,6 +21,8 @@ struct RenderFlags {
   HeatKind heat = HeatKind::none;   ///< of every .png
   std::vector<double> isovalues, opacities;
   std::vector<glm::dvec3> colors;
+  VolumeFlags look;
+  double step = 0.0;  ///< cells; 0: 0.25 for surfaces, 1 for volumes
   CameraFlags camera;
   Scene scene;                    ///< all but its surfaces and camera
   bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through

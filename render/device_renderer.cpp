@@ -8,6 +8,8 @@
 
 #include "lattice/error.h"
 #include "lattice/stopwatch.h"
+#include "render/seen_values.h"
+#include "render/transfer_table.h"
 
 namespace quincunx {
 namespace {
@@ -22,9 +24,6 @@ constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
 constexpr std::int64_t kMostCells = 65535;     // along an axis: lists of roots and boxes hold 16 bits (root.glsl, box.glsl)
 constexpr std::uint32_t kRaysPerLane = 16;     // of the seeking pass, one after another, on a CPU
 
-/// The values that leave a trace in the picture.
-std::vector<ValueRange> seen_values(const Scene& scene) { return ranges_of(isovalues_of(visible_surfaces(scene))); }
-
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& v) {
   return std::as_bytes(std::span<const T>(v));
@@ -34,7 +33,7 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
     : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits),
-      spline_(make_spline(config.spline)), volume_(volume), skipping_(device_) {
+      spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume), skipping_(device_) {
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
@@ -70,8 +69,19 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.cell_test = request.skip.cell_test && request.skip.structure != "none";
   v.intersect = request.scene.intersect;
   v.normal = request.scene.normal;
+  v.surfaces = !surfaces.empty();
   v.many_isovalues = surfaces.size() > 1;
-  v.composite = std::any_of(surfaces.begin(), surfaces.end(), [](const Isosurface& s) { return s.opacity < 1.0; });
+  v.composite = std::any_of(surfaces.begin(), surfaces.end(), [&](const Isosurface& s) { return s.opacity < 1.0 || request.scene.volume; });
+  if (request.scene.volume) {
+    const DirectVolume& volume = *request.scene.volume;
+    v.volume = true;
+    v.pre_integrated = volume.classify == Classify::pre_integrated;
+    v.adaptive = volume.adaptive;
+    v.lit = volume.shade;
+    v.modulated = volume.modulated();
+    v.jitter = volume.jitter.has_value();
+  }
+  if (!v.surfaces) v.intersect = Intersect::exact, v.normal = Normal::analytic;
   v.stub = request.scene.stub_sampling;
   v.cost = request.scene.cost || v.stub;
   v.coefficient_buffers = layout.buffers;
@@ -137,7 +147,20 @@ void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfac
     data.insert(data.end(), {float(s.isovalue), float(s.opacity), 0.0f, 0.0f});
     data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
   }
+  if (data.empty()) return;
   isosurfaces_ = gpu::create_filled(device_, bytes_of(data), gpu::BufferUse::storage, "isosurfaces");
+}
+
+void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stats) {
+  if (!scene.volume) return;
+  const DirectVolume& v = *scene.volume;
+  const double cell = cell_length(coefficients_->world), length = v.step * cell;
+  const Stopwatch watch;
+  const std::vector<glm::vec4> entries = v.classify == Classify::post ? bake(v.function, v.table_entries(), length, cell).entries
+                                                                      : pre_integrate(v.function, v.table_entries(), length, cell).cells;
+  stats.table_ms = watch.ms();
+  transfer_table_ = gpu::create_filled(device_, bytes_of(entries), gpu::BufferUse::texel, "transfer table", VK_FORMAT_R32G32B32A32_SFLOAT);
+  stats.upload_ms += watch.ms() - stats.table_ms;
 }
 
 // ---- pictures ----
@@ -157,7 +180,7 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
   gpu::Resources all = skipping_.resources();
-  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_},
+  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
                          {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
   for (std::size_t i = 0; i < coefficient_buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), coefficient_buffers_[i]);
   // What the variant leaves out is not bound.
@@ -260,6 +283,7 @@ void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   stats.device_bytes = {{"coefficients", coefficients}};
   skipping_.describe(stats);
   stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes);
+  if (transfer_table_.bytes > 0) stats.device_bytes.emplace_back("transfer table", transfer_table_.bytes);
   stats.device_bytes.emplace_back("parameters", parameters_.bytes + isosurfaces_.bytes);
 }
 
@@ -272,7 +296,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   check_scene(request.scene);
   Request visible = request;
   visible.scene.isosurfaces = visible_surfaces(request.scene);
-  if (visible.scene.isosurfaces.empty()) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
+  if (visible.scene.isosurfaces.empty() && !visible.scene.volume) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
 
   stats = RenderStats{};
   prepare_coefficients(stats, progress);
@@ -281,6 +305,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   visible.skip = complete(visible, stats, progress).config;
   skipping_.prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);
+  upload_transfer_table(visible.scene, stats);
   const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);
 
   Band band = make_band(visible.scene, visible.scene.cost || visible.scene.stub_sampling);

@@ -44,6 +44,7 @@ class DeviceRenderer final : public Renderer {
   /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
+  void upload_transfer_table(const Scene& scene, RenderStats& stats);
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
   double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
@@ -70,7 +71,7 @@ class DeviceRenderer final : public Renderer {
 
   std::optional<VolumeBounds> bounds_;
   DeviceSkipping skipping_;
-  gpu::Buffer isosurfaces_, parameters_;
+  gpu::Buffer isosurfaces_, transfer_table_, parameters_;
 };
 
 }  // namespace quincunx

@@ -11,25 +11,35 @@ namespace {
 struct Part {
   const char* name;
   const char* define;   ///< set where the part is compiled in; null where includes alone decide
-  const char* witness;  ///< a function or buffer of the SPIR-V
+  const char* witness;  ///< a function or buffer of the SPIR-V; null where others tell
   bool (*wanted)(const KernelVariant&);
   const char* why;      ///< of its being there
   const char* why_not;
 };
 
 bool skips(const KernelVariant& v) { return v.structure != "none"; }
+bool shows_surfaces(const KernelVariant& v) { return v.surfaces && !v.stub; }
+bool shows_volume(const KernelVariant& v) { return v.volume && !v.stub; }
 
 constexpr Part kParts[] = {
-    {"exact intersection", nullptr, "first_root", [](const KernelVariant& v) { return !v.stub && v.intersect == Intersect::exact; },
-     "--intersect exact", "--intersect march, or nothing is evaluated"},
-    {"fixed-step march", "MARCH", "refine_root", [](const KernelVariant& v) { return !v.stub && v.intersect == Intersect::march; },
-     "--intersect march", "--intersect exact, or nothing is evaluated"},
-    {"central differences", "NORMAL_CENTRAL", "central_gradient", [](const KernelVariant& v) { return !v.stub && v.normal == Normal::central; },
+    {"exact intersection", nullptr, "first_root", [](const KernelVariant& v) { return shows_surfaces(v) && v.intersect == Intersect::exact; },
+     "--intersect exact", "--intersect march, or there is no surface"},
+    {"fixed-step march", "MARCH", "refine_root", [](const KernelVariant& v) { return shows_surfaces(v) && v.intersect == Intersect::march; },
+     "--intersect march", "--intersect exact, or there is no surface"},
+    {"central differences", "NORMAL_CENTRAL", "central_gradient", [](const KernelVariant& v) { return shows_surfaces(v) && v.normal == Normal::central; },
      "--normal central", "--normal analytic: the gradient comes with the polynomial"},
-    {"several isovalues", nullptr, "count_isovalues", [](const KernelVariant& v) { return !v.stub && v.many_isovalues; },
-     "more than one isovalue", "one isovalue"},
-    {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return !v.stub && v.composite; },
-     "a surface is not opaque", "every surface is opaque: the first hit ends the ray"},
+    {"several isovalues", nullptr, "count_isovalues", [](const KernelVariant& v) { return shows_surfaces(v) && v.many_isovalues; },
+     "more than one isovalue", "one isovalue at most"},
+    {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return shows_surfaces(v) && v.composite; },
+     "a surface is not opaque, or a volume is in front of it", "every surface is opaque: the first hit ends the ray"},
+    {"surfaces", "SURFACES", nullptr, shows_surfaces, "--iso", "no --iso"},
+    {"direct volume rendering", "VOLUME", "integrate", shows_volume, "--tf", "no --tf"},
+    {"pre-integrated classification", "PRE_INTEGRATED", "pre_integrated", [](const KernelVariant& v) { return shows_volume(v) && v.pre_integrated; },
+     "--classify pre-integrated", "--classify post, or no --tf"},
+    {"adaptive steps", "ADAPTIVE", "part_of", [](const KernelVariant& v) { return shows_volume(v) && v.adaptive; }, "--adaptive", "no --adaptive"},
+    {"light on the volume", "LIT", "light_left", [](const KernelVariant& v) { return shows_volume(v) && v.lit; }, "--shade on", "--shade off, or no --tf"},
+    {"gradient modulation", "MODULATED", "opacity_left", [](const KernelVariant& v) { return shows_volume(v) && v.modulated; }, "--modulate", "no --modulate"},
+    {"jitter", "JITTER", "pixel_noise", [](const KernelVariant& v) { return shows_volume(v) && v.jitter; }, "--jitter", "no --jitter"},
     {kSkipPart, "SKIP", "skip_step", skips, "--skip names it", "--skip none: no structure is bound"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
@@ -45,6 +55,7 @@ const char* file_of(Pass pass) {
     case Pass::trace: return "trace.comp";
     case Pass::seek: return "seek.comp";
     case Pass::shade: return "shade.comp";
+    case Pass::volume: return "volume.comp";
     case Pass::traverse: return "traverse.comp";
   }
   return "";
@@ -54,6 +65,7 @@ const char* file_of(Pass pass) {
 
 std::vector<Pass> passes(const KernelVariant& variant) {
   if (variant.stub) return {Pass::enter, Pass::traverse};
+  if (!variant.surfaces) return {Pass::enter, Pass::volume};
   if (variant.intersect == Intersect::exact && !variant.composite) return {Pass::enter, Pass::seek, Pass::shade};
   return {Pass::enter, Pass::trace};
 }
@@ -82,6 +94,7 @@ gpu::ShaderFiles kernel_files(const KernelVariant& variant) {
 std::vector<KernelPart> kernel_parts(const KernelVariant& variant) {
   std::vector<KernelPart> parts;
   for (const Part& part : kParts) {
+    if (!part.witness) continue;
     const bool wanted = part.wanted(variant);
     parts.push_back({{part.name, wanted, wanted ? part.why : part.why_not}, part.witness});
   }

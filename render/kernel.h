@@ -17,9 +17,12 @@ struct KernelVariant {
   bool cell_test = false;
   Intersect intersect = Intersect::exact;
   Normal normal = Normal::analytic;
+  bool surfaces = true;         ///< there are isosurfaces
   bool many_isovalues = false;  ///< more than one
   bool composite = false;       ///< a surface lets something through
   bool cost = false;            ///< counts evaluations, steps and intervals
+  bool volume = false;          ///< a volume is seen through a transfer function
+  bool pre_integrated = false, adaptive = false, lit = false, modulated = false, jitter = false;  ///< how
   bool stub = false;            ///< walks the structure and evaluates nothing
   int coefficient_buffers = 1;  ///< 1..8 texel buffers
   int coefficient_shift = 0;    ///< log2 of the elements of each, where there are several
@@ -28,9 +31,9 @@ struct KernelVariant {
 };
 
 /// The passes of a picture. Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
-/// (trace); or, where their first root is all there is to find, by one that finds it (seek) and one that shades it; or they only
-/// walk on (traverse).
-enum class Pass { enter, trace, seek, shade, traverse };
+/// (trace); or, where their first root is all there is to find, by one that finds it (seek) and one that shades it; or
+/// the volume along them is integrated (volume); or they only walk on (traverse).
+enum class Pass { enter, trace, seek, shade, volume, traverse };
 
 /// Those that `variant` has, in order.
 std::vector<Pass> passes(const KernelVariant& variant);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "render/ray.h"
+#include "render/reference_volume.h"
 #include "render/shading.h"
 #include "render/tracer.h"
 
@@ -24,6 +26,7 @@ class Painter {
         scene_(scene),
         surfaces_(visible_surfaces(scene)),
         tracer_(spline, coefficients, isovalues_of(surfaces_), cells, {scene.intersect, scene.step}),
+        volume_(scene.volume ? std::optional<ReferenceVolume>(std::in_place, spline, coefficients, *scene.volume, scene.ambient) : std::nullopt),
         frame_(camera_frame(scene.camera, scene.width, scene.height)),
         space_(ray_space(coefficients.lattice, coefficients.extents, coefficients.world, scene.camera.eye)) {
     const std::size_t pixels = std::size_t(scene.width) * scene.height;
@@ -56,7 +59,13 @@ class Painter {
     Composite composite;
     RayCost cost;
     bool first = true;
+    ReferenceVolume::March march = volume_ ? volume_->begin(i, j) : ReferenceVolume::March{};
+    const auto see_volume = [&](double end) {
+      if (volume_) volume_->integrate(*ray, direction, end, march, composite, cost);
+      return !volume_ || !volume_->opaque(composite);
+    };
     const auto add = [&](const Crossing& crossing) {
+      if (!see_volume(crossing.s)) return false;
       const Isosurface& surface = surfaces_[crossing.surface];
       const glm::dvec3 normal = normal_at(tracer_.place(*ray, crossing.s), direction);
       if (first) {
@@ -68,6 +77,8 @@ class Painter {
       return composite.transmittance > 0.0;
     };
     if (ray && !surfaces_.empty()) tracer_.trace(*ray, work, cost, std::cref(add));
+    if (ray && composite.transmittance > 0.0) see_volume(ray->length);
+    if (march.half && surfaces_.empty()) picture_.depth[pixel] = float(ray->distance(*march.half));
 
     const glm::dvec3 color = composite.color + composite.transmittance * scene_.background;
     for (int c = 0; c < 3; ++c) picture_.color[4 * pixel + c] = float(color[c]);
@@ -90,6 +101,7 @@ class Painter {
   const Scene& scene_;
   std::vector<Isosurface> surfaces_;
   Tracer tracer_;
+  std::optional<ReferenceVolume> volume_;
   CameraFrame frame_;
   RaySpace space_;
   Frame picture_;

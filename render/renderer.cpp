@@ -9,11 +9,13 @@
 
 namespace quincunx {
 
-std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config) {
+std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& wanted) {
   check_volume(volume, "volume");
+  Renderer::Config config = wanted;
+  if (config.spline.empty()) config.spline = default_spline(volume.lattice);
   const std::unique_ptr<Spline> spline = make_spline(config.spline);
   if (volume.lattice != spline->lattice())
-    throw InputError(fmt::format("volume: lattice {}; expected {}, the lattice of {}", lattice_name(volume.lattice),
+    throw InputError(fmt::format("--spline: found a volume on the {} lattice, expected {}, the lattice of {}", lattice_name(volume.lattice),
                                  lattice_name(spline->lattice()), config.spline));
   if (device == "cpu") return std::make_unique<ReferenceRenderer>(volume, config);
   gpu::DeviceConfig choice;

@@ -19,6 +19,7 @@ struct RenderStats {
   std::string device;
   SkipConfig skip;  ///< as it was used
   double prefilter_ms = 0, upload_ms = 0, compile_ms = 0;
+  double table_ms = 0;     ///< of the transfer function, for the kernel
   double bounds_ms = 0;    ///< of cells and blocks, and what a structure makes of them alone: once a volume and block size
   double classify_ms = 0;  ///< blocks, and cells where they are tested
   double cluster_ms = 0, build_ms = 0;  ///< of the structure for the isovalues
@@ -42,7 +43,7 @@ struct Feature {
 class Renderer {
  public:
   struct Config {
-    std::string spline = "bcc7";
+    std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
     Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
     bool validation = false;  ///< Vulkan validation layers; any message throws
   };
@@ -62,9 +63,9 @@ class Renderer {
   virtual std::vector<Feature> explain(const Request& request) = 0;
 };
 
-/// Makes a BCC volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
+/// Makes a volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
-/// Throws InputError for a volume that is not BCC, has NaN or infinite samples, or a device that is not there.
+/// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples, or a device that is not there.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
 
 }  // namespace quincunx

@@ -15,6 +15,9 @@ constexpr int kMaxSize = 16384;
 /// A classification holds levels 0..254.
 constexpr std::size_t kMaxIsosurfaces = 254;
 
+/// Of tables of transfer functions.
+constexpr double kLeastEntries = 2, kMostEntries = 65536, kMostPreIntegrated = 2048;
+
 /// False for NaN.
 bool within(double x, double low, double high) { return x >= low && x <= high; }
 
@@ -27,8 +30,9 @@ void check_color(const glm::dvec3& c, std::string_view flag) {
     throw InputError(fmt::format("{}: {} {} {}; expected red, green and blue from 0 to 1", flag, c.r, c.g, c.b));
 }
 
-void check_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
-  if (isosurfaces.empty() || isosurfaces.size() > kMaxIsosurfaces)
+void check_isosurfaces(const Scene& scene) {
+  const std::vector<Isosurface>& isosurfaces = scene.isosurfaces;
+  if ((isosurfaces.empty() && !scene.volume) || isosurfaces.size() > kMaxIsosurfaces)
     throw InputError(fmt::format("--iso: {} isovalues; expected 1 to {}", isosurfaces.size(), kMaxIsosurfaces));
   for (const Isosurface& surface : isosurfaces) {
     if (!std::isfinite(surface.isovalue))
@@ -42,7 +46,24 @@ void check_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
   if (twin != values.end()) throw InputError(fmt::format("--iso: {} stands twice; expected different isovalues", *twin));
 }
 
+void check_volume_look(const DirectVolume& volume) {
+  check_transfer_function(volume.function, "--tf");
+  const bool post = volume.classify == Classify::post;
+  if (volume.entries != 0) check_range(volume.entries, kLeastEntries, post ? kMostEntries : kMostPreIntegrated, "--tf-entries");
+  check_range(volume.step, 1e-3, 1e3, "--step");
+  if (volume.adaptive && !post) throw InputError("--adaptive: found pre-integrated classification, expected --classify post");
+  if (volume.adaptive) check_range(volume.finest, 1e-5, 1.0, "--adaptive");
+  check_range(volume.termination, 0.0, 0.5, "--termination");
+  if (!(volume.modulate_from == 0.0 && volume.modulate_to == 0.0) &&
+      !(within(volume.modulate_from, 0.0, 1e30) && within(volume.modulate_to, 0.0, 1e30) && volume.modulated()))
+    throw InputError(fmt::format("--modulate: {},{}; expected two gradient magnitudes, the second one larger", volume.modulate_from, volume.modulate_to));
+}
+
 }  // namespace
+
+double cell_length(const World& world) {
+  return std::min({glm::length(world.axes[0]), glm::length(world.axes[1]), glm::length(world.axes[2])});
+}
 
 std::vector<Isosurface> visible_surfaces(const Scene& scene) {
   std::vector<Isosurface> surfaces = scene.isosurfaces;
@@ -65,7 +86,8 @@ CostSums cost_sums(const Frame& frame) {
 }
 
 void check_scene(const Scene& scene) {
-  check_isosurfaces(scene.isosurfaces);
+  check_isosurfaces(scene);
+  if (scene.volume) check_volume_look(*scene.volume);
   if (scene.width < 1 || scene.height < 1 || scene.width > kMaxSize || scene.height > kMaxSize)
     throw InputError(fmt::format("--size: {} x {}; expected 1 to {} pixels each way", scene.width, scene.height, kMaxSize));
   camera_frame(scene.camera, scene.width, scene.height, "--camera");

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/camera.h"
+#include "render/transfer_function.h"
 
 namespace quincunx {
 
@@ -17,12 +19,37 @@ struct Isosurface {
   double opacity = 1.0;
 };
 
+/// How a volume's samples become colours: each one by itself, or each stretch by the values at its two ends.
+enum class Classify { post, pre_integrated };
+
+/// A volume seen through a transfer function.
+struct DirectVolume {
+  TransferFunction function;
+  Classify classify = Classify::post;
+  int entries = 0;           ///< of the table, or of each side of the pre-integrated one; 0: 4096, or 512 pre-integrated
+  double step = 1.0;         ///< length of a stretch in cells: world length over that of the shortest lattice step
+  bool adaptive = false;     ///< stretches are parted into up to 8 where the value goes along more than `finest`; of Classify::post
+  double finest = 1.0 / 64;  ///< part of the function's range of values
+  bool shade = true;         ///< a light at the eye, by the gradient
+  double modulate_from = 0.0, modulate_to = 0.0;  ///< gradient magnitudes, data units per world unit, between which opacities grow from
+                                                  ///< 0 to their own; equal: not modulated
+  double termination = 1.0 / 512;  ///< a ray ends where less than this is let through
+  std::optional<std::uint32_t> jitter;  ///< seed: shifts the stretches of each pixel by a random part of one
+
+  bool modulated() const { return modulate_from < modulate_to; }
+  int table_entries() const { return entries > 0 ? entries : classify == Classify::post ? 4096 : 512; }
+};
+
+/// The length of one cell in the world: of the shortest step of the lattice.
+double cell_length(const World& world);
+
 enum class Intersect { exact, march };
 enum class Normal { analytic, central };
 
 /// A picture to make.
 struct Scene {
-  std::vector<Isosurface> isosurfaces;  ///< at least one; any order; isovalues differ
+  std::vector<Isosurface> isosurfaces;  ///< any order; isovalues differ
+  std::optional<DirectVolume> volume;   ///< shown together with them, in depth order; at least one of both
   Camera camera;
   int width = 512, height = 512;
   glm::dvec3 background{0.0};  ///< linear RGB behind everything; alpha there is 0
@@ -49,7 +76,8 @@ void check_scene(const Scene& scene);
 
 /// A finished picture, float32 channels as DESIGN names them, row 0 at the top, one plane after another.
 ///   color[4*p ..]  R G B A (linear, alpha = 1 - transmittance, colour premultiplied over the background)
-///   depth[p]       Z: distance from the eye along the ray in world units to the first hit; +inf where nothing is hit
+///   depth[p]       Z: distance from the eye along the ray in world units to the first hit; +inf where nothing is hit. Without
+///                  isosurfaces: to the end of the stretch by which a volume hides half of what is behind it
 ///   normal[3*p ..] N.X N.Y N.Z: unit normal at the first hit, world space, facing the viewer; 0 where nothing is hit
 ///   cost[3*p ..]   evaluations, steps, intervals; empty unless asked for
 struct Frame {

@@ -1,9 +1,11 @@
 #include "render/trace_frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lattice/error.h"
+#include "render/transfer_table.h"
 
 namespace quincunx {
 namespace {
@@ -41,6 +43,17 @@ double start_plane(const Camera& camera, const glm::dvec3& forward, const World&
   return glm::length(to_centre) < kNear * radius ? 0.0 : std::max(0.0, glm::dot(to_centre, forward));
 }
 
+/// What a volume's kernels are told but for its table. `scale`: by how much world gradients are more than normal_x.. makes of them.
+void store_volume(const DirectVolume& volume, double cell, double scale, TraceParameters& p) {
+  p.sampling = vec4(float(volume.step * cell), 0.0f, float(volume.termination), std::bit_cast<float>(volume.jitter.value_or(0)));
+  const double last = volume.table_entries() - 1;
+  const double low = float_below(volume.function.low()), high = float_above(volume.function.high());
+  p.transfer = vec4(float(low), float(last / (high - low)), float(last), 0.0f);
+  if (volume.modulated())
+    p.modulation = vec4(float(volume.modulate_from), float(1.0 / (volume.modulate_to - volume.modulate_from)), float(scale), 0.0f);
+  p.modulation.w = float(volume.finest * last);
+}
+
 }  // namespace
 
 TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& coefficients) {
@@ -74,6 +87,7 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(normal[i][j]));
   normal /= largest;
+  if (scene.volume) store_volume(*scene.volume, cell_length(world), largest, p);
   p.normal_x = narrow(normal[0]);
   p.normal_y = narrow(normal[1]);
   p.normal_z = narrow(normal[2]);

@@ -23,5 +23,5 @@ void main() {
   Seen seen = nothing_seen();
   Root root;
   if (unpack_root(noted.yzw, root)) see_root(seen, ray, make_exact_ray(pixel), root);
-  if (mine) write_pixel(pixel, vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance), seen.first);
+  if (mine) write_pixel(pixel, over_background(seen), seen.first);
 }

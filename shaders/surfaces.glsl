@@ -1,13 +1,6 @@
-// What the surfaces met so far amount to.
+// How surfaces join what a ray has met.
+#include "seen.glsl"
 #include "shade.glsl"
-
-struct Seen {
-  vec3 color;           // premultiplied
-  float transmittance;
-  vec4 first;           // normal and depth of the first hit
-};
-
-Seen nothing_seen() { return Seen(vec3(0.0), 1.0, vec4(0.0, 0.0, 0.0, NO_HIT)); }
 
 #ifdef COMPOSITE
 // Front to back.

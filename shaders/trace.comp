@@ -17,6 +17,9 @@
 #include "hit.glsl"
 #include "rays.glsl"
 #include "intersect.glsl"
+#ifdef VOLUME
+#include "volume.glsl"
+#endif
 
 void main() {
   uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
@@ -27,18 +30,31 @@ void main() {
   Seen seen = nothing_seen();
   ExactRay exact = make_exact_ray(pending.pixel);
   Root root;
+#ifdef VOLUME
+  VolumeRay volume = begin_volume(ray, pending.pixel, begin_walk(ray, pending.t, pending.until));
+#endif
 #ifdef COMPOSITE
   bool seeking = mine;
   do {
     bool hit = next_hit(ray, caster, seeking, false, root);
+#ifdef VOLUME
+    // What is in front of the hit, or up to the ray's end where no further one is.
+    integrate(ray, volume, seeking && (hit || !caster.live), hit ? root.t : ray.end, seen);
+    hit = hit && !opaque(seen);
+#endif
     if (hit) see_root(seen, ray, exact, root);
     seeking = seeking && caster.live && seen.transmittance > 0.0;
+#ifdef VOLUME
+    seeking = seeking && !opaque(seen);
+    // Behind the last hit.
+    integrate(ray, volume, mine && !seeking && !opaque(seen) && seen.transmittance > 0.0, ray.end, seen);
+#endif
   } while (subgroupAny(seeking));
 #else
   if (next_hit(ray, caster, mine, false, root)) see_root(seen, ray, exact, root);
 #endif
   if (mine) {
-    write_pixel(pending.pixel, vec4(seen.color + seen.transmittance * parameters.background.rgb, 1.0 - seen.transmittance), seen.first);
+    write_pixel(pending.pixel, over_background(seen), seen.first);
 #ifdef COST
     vec3 before = read_cost(pending.pixel);
     write_cost(pending.pixel, before + vec3(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals)));

@@ -38,6 +38,8 @@ const std::vector<std::string_view>& spline_names() {
   return names;
 }
 
+std::string_view default_spline(LatticeKind lattice) { return lattice == LatticeKind::bcc ? "bcc7" : "trilinear"; }
+
 std::unique_ptr<Spline> make_spline(std::string_view name) {
   for (const Row& row : kSplines)
     if (row.name == name) return row.make();

@@ -67,6 +67,9 @@ class Spline {
 /// The names make_spline knows.
 const std::vector<std::string_view>& spline_names();
 
+/// The one to take where nothing is asked for.
+std::string_view default_spline(LatticeKind lattice);
+
 /// The spline of that name; throws InputError naming the choices.
 std::unique_ptr<Spline> make_spline(std::string_view name);
 

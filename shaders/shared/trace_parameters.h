@@ -21,6 +21,9 @@
 //      384  blocks                                                        blocks per axis of the skipping structure; .w: log2 of their edge
 //      400  bricks                                                        occupancy bricks per axis; .w: rays a lane of the seeking pass
 //      416  structure                                                     the skipping structure's own numbers (its GLSL twin says which)
+//      432  sampling                                                      of a volume: length of a stretch (world), 0, least transmittance, seed (bits)
+//      448  transfer                                                      low (value), entries per value, last entry, 0
+//      464  modulation                                                    low (gradient magnitude), 1/(high-low), gradients' scale, finest (entries)
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -45,9 +48,12 @@ layout(std140, binding = 0) uniform TraceParameters {
   ivec4 blocks;
   ivec4 bricks;
   ivec4 structure;
+  vec4 sampling;
+  vec4 transfer;
+  vec4 modulation;
 #ifdef __cplusplus
 };
-static_assert(sizeof(TraceParameters) == 432);
+static_assert(sizeof(TraceParameters) == 480);
 }  // namespace quincunx
 #else
 }

@@ -1,0 +1,15 @@
+// Which values leave a trace in a picture: what blocks and cells are classified by.
+#pragma once
+
+#include <vector>
+
+#include "accel/value_range.h"
+#include "render/scene.h"
+
+namespace quincunx {
+
+/// The isovalues of visible surfaces, and the values to which a volume's table gives opacity; at most 254 ranges, close ones joined where
+/// there are more. Exact for the table as kernels interpolate it, rounding included. Throws InputError as bake does.
+std::vector<ValueRange> seen_values(const Scene& scene);
+
+}  // namespace quincunx

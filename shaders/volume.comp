@@ -1,0 +1,32 @@
+#version 460
+// The pass of direct volume rendering where there are no surfaces: the rays that may meet opacity, one a lane.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+#include "shared/trace_parameters.h"
+#include "ray.glsl"
+#include "coefficients.glsl"
+#include "spline.glsl"
+#include "walk.glsl"
+#include "picture.glsl"
+#include "seen.glsl"
+#include "rays.glsl"
+#include "volume.glsl"
+
+void main() {
+  uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+  bool mine = number < ray_count;
+  PendingRay pending = pending_ray(mine ? number : 0u);
+  Ray ray = make_ray(pending.pixel);
+  VolumeRay volume = begin_volume(ray, pending.pixel, begin_walk(ray, pending.t, pending.until));
+  Seen seen = nothing_seen();
+  integrate(ray, volume, mine, ray.end, seen);
+  if (mine) {
+    write_pixel(pending.pixel, over_background(seen), seen.first);
+#ifdef COST
+    vec3 before = read_cost(pending.pixel);
+    write_cost(pending.pixel, before + vec3(float(volume.evaluations), float(volume.walk.steps), float(volume.walk.intervals)));
+#endif
+  }
+}

@@ -1,0 +1,291 @@
+// Direct volume rendering: the volume along a ray, cut into stretches of one length in the world, each seen through a transfer function.
+//
+// Stretch k begins at `begin` + k dt, where `begin` is the ray's entry into the domain, and the last one ends with the ray: pure functions
+// of the ray, whatever is skipped. What is skipped has no opacity, and adds exactly nothing (docs/exactness.md).
+//
+// One flat loop in which every busy lane evaluates the spline once a trip; no lane leaves a loop before its subgroup does, and what it
+// has is kept by selection (intersect_exact.glsl says why).
+#include "transfer.glsl"
+
+struct VolumeRay {
+  Walk walk;
+  float dt, inverse;     // length of a stretch, in t, and 1/dt
+  float world_per_t;
+  float depth;           // in the world, at t = 0
+  float shift;           // by which part of a stretch the first one begins before the ray
+  float k;               // the next stretch
+  float reached;         // what is before has been integrated
+#ifdef PRE_INTEGRATED
+  bool have;             // the value where stretch k goes on is known:
+  float front;           // its place in the table
+#endif
+#ifdef ADAPTIVE
+  int parts;             // of stretch k: 0 not known yet, else 1, 2, 4 or 8
+  int part;              // the next of them
+#endif
+#ifdef COST
+  uint evaluations;
+#endif
+};
+
+#ifdef JITTER
+// M. Jarzynski, M. Olano, Hash functions for GPU rendering, Journal of Computer Graphics Techniques 9(3), 2020 (pcg3d), first component.
+float pixel_noise(ivec2 pixel) {
+  uvec3 v = uvec3(pixel, floatBitsToUint(parameters.sampling.w));
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  return float(v.x >> 8) * (1.0 / 16777216.0);
+}
+#endif
+
+float stretch_begin(Ray ray, VolumeRay volume, float k) {
+  precise float t = ray.begin + (k - volume.shift) * volume.dt;
+  return t;
+}
+// The stretch that holds t, or the one before it.
+float stretch_before(Ray ray, VolumeRay volume, float t) {
+  float x = (t - ray.begin) * volume.inverse + volume.shift;
+  return max(floor(x - 1e-3 - 2e-6 * x), 0.0);
+}
+
+// What is left of stretch k before `end`.
+struct Stretch {
+  float first, last;
+  float part;  // of a whole one
+  bool cut;    // by `end`
+};
+Stretch stretch_left(Ray ray, VolumeRay volume, float end) {
+  float begin = stretch_begin(ray, volume, volume.k);
+  float next = stretch_begin(ray, volume, volume.k + 1.0);
+  Stretch s;
+  s.first = max(begin, volume.reached);
+  s.cut = next > end;
+  s.last = s.cut ? end : next;
+  s.part = s.cut || s.first > begin ? clamp((s.last - s.first) * volume.inverse, 0.0, 1.0) : 1.0;
+  return s;
+}
+bool stretches_left(Ray ray, VolumeRay volume, float end) { return max(stretch_begin(ray, volume, volume.k), volume.reached) < end; }
+
+VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
+  VolumeRay volume;
+  volume.walk = walk;
+  float x = float(2 * pixel.x + 1 - parameters.picture.x) / float(parameters.picture.x);
+  float y = float(parameters.picture.y - 2 * pixel.y - 1) / float(parameters.picture.y);
+  precise float lattice = length(parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz));
+  precise float world = length(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
+  volume.world_per_t = world / lattice;
+  volume.depth = parameters.base_hi.w * world;
+  volume.dt = parameters.sampling.x * (lattice / world);
+  volume.inverse = 1.0 / volume.dt;
+#ifdef JITTER
+  volume.shift = pixel_noise(pixel);
+#else
+  volume.shift = 0.0;
+#endif
+  volume.reached = ray.begin;
+  volume.k = stretch_before(ray, volume, walk.t);
+#ifdef PRE_INTEGRATED
+  volume.have = false;
+  volume.front = 0.0;
+#endif
+#ifdef ADAPTIVE
+  volume.parts = 0;
+  volume.part = 0;
+#endif
+#ifdef COST
+  volume.evaluations = 0u;
+#endif
+  return volume;
+}
+
+// Nothing more is to be seen behind: early ray termination.
+bool opaque(Seen seen) { return seen.transmittance <= parameters.sampling.z; }
+
+#if defined(PRE_INTEGRATED) || defined(ADAPTIVE)
+// A stretch matters where any of it may.
+#define STRETCHES
+#endif
+
+// Where `wanted`, moves on to the next stretch before `end` that may have opacity. False where there is none left, or (some are left:
+// call again) where the walk is broken off because no more than `break_at` lanes of the subgroup still walk.
+bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint break_at) {
+#ifndef SKIP
+#ifdef COST
+  volume.walk.steps += wanted ? 1u : 0u;
+#endif
+  return wanted && stretches_left(ray, volume, end);
+#else
+  bool found = false;
+  bool seeking = wanted && stretches_left(ray, volume, end);
+  do {
+    Stretch s = stretch_left(ray, volume, end);
+#ifdef STRETCHES
+    float t = s.first;
+#else
+    float t = 0.5 * (s.first + s.last);
+#endif
+    ivec3 cell = cell_at(ray, t);
+    bool asked = seeking && t >= volume.walk.until;
+    float from, until;
+    bool told = skip_step(ray, cell, t, asked, volume.walk.skip, from, until);
+    volume.walk.from = told ? from : volume.walk.from;
+    volume.walk.until = told ? until : volume.walk.until;
+    bool answered = told || (seeking && !asked);
+    bool matters = answered && t >= volume.walk.from;
+#ifdef COST
+    volume.walk.intervals += told && from < until ? 1u : 0u;
+    volume.walk.steps += seeking ? 1u : 0u;
+#endif
+    // All from t until `leave` is empty, unless something is here.
+#ifdef CELL_TEST
+    uvec2 brick = occupancy_brick(cell);
+    uint planes = occupied_planes(brick, cell);
+    bool here = matters && occupied(planes, cell);
+    int size = empty_cube(brick, planes, cell);
+    float leave = exit_time(ray, cell & ~(size - 1), size);
+    leave = matters ? min(leave, volume.walk.until) : volume.walk.from;
+#else
+    bool here = matters;
+    float leave = volume.walk.from;
+#endif
+#ifdef STRETCHES
+    here = here || (answered && leave < s.last);
+#endif
+    found = found || here;
+    bool move = answered && !found;
+    volume.reached = move && s.cut ? max(volume.reached, s.last) : volume.reached;
+    volume.k = move ? max(stretch_before(ray, volume, leave), volume.k + (s.cut ? 0.0 : 1.0)) : volume.k;
+#ifdef PRE_INTEGRATED
+    volume.have = volume.have && !move;
+#endif
+    seeking = seeking && !found && stretches_left(ray, volume, end);
+  } while (break_at == 0u ? seeking : subgroupBallotBitCount(subgroupBallot(seeking)) > break_at);
+  return found;
+#endif
+}
+
+// What the spline is at a point, as the transfer function sees it.
+struct Look {
+  float place;       // in the table
+  float light;       // what is left of a colour
+  float modulation;  // what is left of an opacity
+  float change;      // along a whole stretch, in entries of the table
+};
+
+#if defined(LIT) || defined(MODULATED)
+vec3 world_gradient(vec3 gradient) {
+  return gradient.x * parameters.normal_x.xyz + gradient.y * parameters.normal_y.xyz + gradient.z * parameters.normal_z.xyz;
+}
+#endif
+#ifdef LIT
+// The headlight (shade.glsl), from either side.
+float light_left(Ray ray, vec3 n, float size) {
+  float facing = size > 0.0 ? min(abs(dot(n, ray.view)) / size, 1.0) : 1.0;
+  return mix(facing, 1.0, parameters.background.w);
+}
+#endif
+#ifdef MODULATED
+float opacity_left(float size) {
+  return clamp((size * (parameters.modulation.z / SPLINE_SCALE) - parameters.modulation.x) * parameters.modulation.y, 0.0, 1.0);
+}
+#endif
+
+Look look(Ray ray, VolumeRay volume, float t) {
+  SplineCell cell = spline_cell(cell_at(ray, t), ray.centre);
+  vec3 u = cell_point(cell, ray.o, ray.d, t);
+  float low = SPLINE_SCALE * parameters.transfer.x;
+  Look seen = Look(0.0, 1.0, 1.0, 0.0);
+  float value;
+#if defined(LIT) || defined(MODULATED) || defined(ADAPTIVE)
+  vec3 gradient;
+  spline_jet(cell, u, low, value, gradient);
+#ifdef ADAPTIVE
+  seen.change = abs(dot(gradient, ray.d)) * (volume.dt * parameters.transfer.y / SPLINE_SCALE);
+#endif
+#if defined(LIT) || defined(MODULATED)
+  vec3 n = world_gradient(gradient);
+  float size = length(n);
+#ifdef LIT
+  seen.light = light_left(ray, n, size);
+#endif
+#ifdef MODULATED
+  seen.modulation = opacity_left(size);
+#endif
+#endif
+#else
+  value = spline_value(cell, u, low);
+#endif
+  seen.place = clamp(value * (parameters.transfer.y / SPLINE_SCALE), 0.0, parameters.transfer.z);
+  return seen;
+}
+
+// The opacity of one of 1, 2, 4 or 8 equal parts of a stretch, with its colour.
+vec4 part_of(vec4 stretch, int parts) {
+  float keep = 1.0 - stretch.a;
+  keep = parts > 1 ? sqrt(keep) : keep;
+  keep = parts > 2 ? sqrt(keep) : keep;
+  keep = parts > 4 ? sqrt(keep) : keep;
+  float a = 1.0 - keep;
+  return parts > 1 && stretch.a > 0.0 ? vec4(stretch.rgb * (a / stretch.a), a) : stretch;
+}
+
+// Where `here`, adds what reaches until t.
+void see_stretch(inout Seen seen, VolumeRay volume, vec4 stretch, float t, bool here) {
+  float transmittance = seen.transmittance;
+  seen.color += here ? transmittance * stretch.rgb : vec3(0.0);
+  seen.transmittance = here ? transmittance * (1.0 - stretch.a) : transmittance;
+#ifndef SURFACES
+  bool half_seen = seen.first.w == NO_HIT && seen.transmittance <= 0.5;
+  seen.first.w = half_seen ? volume.depth + t * volume.world_per_t : seen.first.w;
+#endif
+}
+
+// Where `wanted`, integrates until `end`, or until nothing more can be seen.
+void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Seen seen) {
+  bool busy = wanted && !opaque(seen) && stretches_left(ray, volume, end);
+  uint lanes = subgroupBallotBitCount(subgroupBallot(busy));
+  do {
+#ifdef ADAPTIVE
+    bool found = find_stretch(ray, volume, end, busy && volume.parts == 0, lanes / 4u) || (busy && volume.parts > 0);
+#else
+    bool found = find_stretch(ray, volume, end, busy, lanes / 4u);
+#endif
+    Stretch s = stretch_left(ray, volume, end);
+#if defined(PRE_INTEGRATED)
+    Look at = look(ray, volume, volume.have ? s.last : s.first);
+    vec4 stretch = pre_integrated(volume.front, at.place);
+    bool here = found && volume.have;
+    bool ended = here;
+    volume.have = volume.have || found;
+    volume.front = found ? at.place : volume.front;
+#elif defined(ADAPTIVE)
+    bool parted = volume.parts > 1;
+    float middle = parted ? (float(volume.part) + 0.5) / float(volume.parts) : 0.5;
+    Look at = look(ray, volume, s.first + middle * (s.last - s.first));
+    vec4 stretch = part_of(classified(at.place), volume.parts);
+    float finest = parameters.modulation.w;  // entries a part may go along
+    int parts = at.change <= finest ? 1 : at.change <= 2.0 * finest ? 2 : at.change <= 4.0 * finest ? 4 : 8;
+    bool here = found && (parted || parts == 1);
+    bool ended = here && (!parted || volume.part + 1 == volume.parts);
+    volume.part = found && parted ? volume.part + 1 : 0;
+    volume.parts = ended ? 0 : found && !parted ? parts : volume.parts;
+#else
+    Look at = look(ray, volume, 0.5 * (s.first + s.last));
+    vec4 stretch = classified(at.place);
+    bool here = found;
+    bool ended = found;
+#endif
+    stretch *= s.part * at.modulation;
+    stretch.rgb *= at.light;
+    see_stretch(seen, volume, stretch, s.last, here);
+#ifdef COST
+    volume.evaluations += found ? 1u : 0u;
+#endif
+    volume.reached = ended && s.cut ? s.last : volume.reached;
+    volume.k += ended && !s.cut ? 1.0 : 0.0;
+    busy = busy && !opaque(seen) && stretches_left(ray, volume, end);
+    lanes = subgroupBallotBitCount(subgroupBallot(busy));
+  } while (lanes > 0u);
+}
