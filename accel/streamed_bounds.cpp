@@ -16,32 +16,75 @@ constexpr std::int64_t kLong = 512, kHigh = 64;  // cells of a box along x, and 
 constexpr int kMostBlock = 64;                   // larger blocks are made of these
 constexpr double kRangePart = 0.2;               // of the progress
 
-/// The bounds of the cells from `low` on, and perhaps some more, from the samples that matter to them.
-CellBounds box_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const BoundsScale& scale,
-                      const glm::i64vec3& low, const glm::i64vec3& cells) {
-  const std::int64_t step = lattice_step(spline.lattice());
+/// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond.
+std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : 0; }
+
+/// The coefficients of the cells low - ring <= cell < low + cells + ring, perhaps of some more.
+Coefficients<float> box_of(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const glm::i64vec3& low,
+                           const glm::i64vec3& cells) {
+  const std::int64_t step = lattice_step(spline.lattice()), more = ring(spline);
   Coefficients<float> c;
   c.lattice = spline.lattice();
-  c.extents = (cells + step - std::int64_t(1)) / step + std::int64_t(1);  // the corners of these cells
+  c.extents = (cells + 2 * more + step - std::int64_t(1)) / step + std::int64_t(1);  // the corners of these cells
   c.apron = spline.apron();
   c.data.resize(std::size_t(coset_count(c.lattice) * c.stride_coset()));
-  box_coefficients(source, spline, prefilter, {low / step - std::int64_t(c.apron), c.padded()}, c.data);
-  return cell_bounds(spline, c, scale);
+  box_coefficients(source, spline, prefilter, {(low - more) / step - std::int64_t(c.apron), c.padded()}, c.data);
+  return c;
 }
 
-/// Widens the blocks by the bounds of their cells: those of the box low <= cell < low + cells.
-void widen(const CellBounds& bounds, const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
+/// Widens a block.
+void widen(BlockBounds& blocks, std::size_t number, std::uint16_t min, std::uint16_t max) {
+  blocks.min[number] = std::min(blocks.min[number], min);
+  blocks.max[number] = std::max(blocks.max[number], max);
+}
+
+/// Calls row(first, size, block) for the rows of the cells low <= cell < low + cells: the cell `first` relative to low, how many there are
+/// along x, and the number of the block that the row begins in.
+template <class Row>
+void for_each_row(const glm::i64vec3& low, const glm::i64vec3& cells, const BlockBounds& blocks, const Row& row) {
   for (std::int64_t z = 0; z < cells.z; ++z)
     for (std::int64_t y = 0; y < cells.y; ++y) {
       const glm::i64vec3 block = (low + glm::i64vec3(0, y, z)) / std::int64_t(blocks.block);
-      std::size_t to = std::size_t((block.z * blocks.blocks.y + block.y) * blocks.blocks.x + block.x);
-      const std::size_t row = bounds.number({0, y, z});
-      for (std::int64_t x = 0; x < cells.x; x += blocks.block, ++to) {
-        const std::size_t first = row + std::size_t(x), end = row + std::size_t(std::min(x + blocks.block, cells.x));
-        blocks.min[to] = std::min(blocks.min[to], *std::min_element(bounds.min.data() + first, bounds.min.data() + end));
-        blocks.max[to] = std::max(blocks.max[to], *std::max_element(bounds.max.data() + first, bounds.max.data() + end));
-      }
+      row(glm::i64vec3(0, y, z), cells.x, std::size_t((block.z * blocks.blocks.y + block.y) * blocks.blocks.x + block.x));
     }
+}
+
+/// Widens the blocks by the bounds of the cells low <= cell < low + cells.
+void widen_by_box(const CellBounds& bounds, std::int64_t more, const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
+  for_each_row(low, cells, blocks, [&](const glm::i64vec3& cell, std::int64_t size, std::size_t block) {
+    const std::size_t row = bounds.number(cell + more);
+    for (std::int64_t x = 0; x < size; x += blocks.block, ++block) {
+      const std::size_t first = row + std::size_t(x), end = row + std::size_t(std::min(x + blocks.block, size));
+      widen(blocks, block, *std::min_element(bounds.min.data() + first, bounds.min.data() + end),
+            *std::max_element(bounds.max.data() + first, bounds.max.data() + end));
+    }
+  });
+}
+
+/// The same where all coefficients of the box are equal, as in empty surroundings: one cell stands for all.
+void widen_by_constant(const Spline& spline, const Coefficients<float>& box, const BoundsScale& scale, const glm::i64vec3& low,
+                       const glm::i64vec3& cells, BlockBounds& blocks) {
+  Coefficients<float> c;
+  c.lattice = box.lattice;
+  c.extents = Extents(2 * ring(spline) + 2);
+  c.apron = box.apron;
+  c.data.assign(std::size_t(coset_count(c.lattice) * c.stride_coset()), box.data[0]);
+  const CellBounds bounds = cell_bounds(spline, c, scale);
+  const std::size_t middle = bounds.number(glm::i64vec3(ring(spline)));
+  for_each_row(low, cells, blocks, [&](const glm::i64vec3&, std::int64_t size, std::size_t block) {
+    for (std::int64_t x = 0; x < size; x += blocks.block, ++block) widen(blocks, block, bounds.min[middle], bounds.max[middle]);
+  });
+}
+
+/// Widens the blocks by the box low <= cell < low + cells.
+void add_box(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const BoundsScale& scale,
+             const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
+  const Coefficients<float> c = box_of(source, spline, prefilter, low, cells);
+  if (std::all_of(c.data.begin(), c.data.end(), [&](float f) { return f == c.data[0]; })) {
+    widen_by_constant(spline, c, scale, low, cells, blocks);
+  } else {
+    widen_by_box(cell_bounds(spline, c, scale), ring(spline), low, cells, blocks);
+  }
 }
 
 /// Blocks of at most kMostBlock cells.
@@ -55,9 +98,8 @@ BlockBounds small_blocks(const SampleSource& source, const Spline& spline, Splin
   SharedProgress shared(progress, boxes.x * boxes.y * boxes.z);
   tbb::parallel_for(std::int64_t(0), boxes.x * boxes.y * boxes.z, [&](std::int64_t n) {
     const glm::i64vec3 low = size * glm::i64vec3(n % boxes.x, n / boxes.x % boxes.y, n / (boxes.x * boxes.y));
-    const glm::i64vec3 in_box = glm::min(size, cells - low);
     // Isolated: a thread that waits inside must not begin another box, whose memory would come on top.
-    tbb::this_task_arena::isolate([&] { widen(box_bounds(source, spline, prefilter, scale, low, in_box), low, in_box, blocks); });
+    tbb::this_task_arena::isolate([&] { add_box(source, spline, prefilter, scale, low, glm::min(size, cells - low), blocks); });
     shared.add(1);
   });
   return blocks;

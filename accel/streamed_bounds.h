@@ -15,9 +15,9 @@ struct StreamedBounds {
   BlockBounds blocks;
 };
 
-/// Bounds of the spline over blocks of `block` cells, certain like block_bounds(cell_bounds(...)) of the whole volume and on a scale that
-/// allows whatever the prefilter may make of such samples. They are wider by up to four of its steps, as margins suppose the largest
-/// coefficient of the volume near every cell, and at the sides of the boxes by up to scale.displacement times the samples' range.
+/// Bounds of the spline over blocks of `block` cells, certain like block_bounds(cell_bounds(...)) of the whole volume. They are on a scale
+/// that allows whatever the prefilter may make of such samples, and by up to four of its steps wider, as some margins suppose the largest
+/// coefficient of the volume near every cell.
 ///
 /// Two passes over the samples, for their range and for the bounds. Beside the result each thread holds one box, of at most 512 x 64 x 64
 /// cells, with what is made of it.
