@@ -104,7 +104,7 @@ GrowthReport measure(const GrowthFlags& flags, ProgressBar& bar) {
 }
 
 void growth(const GrowthFlags& flags) {
-  if (flags.device == "cpu") throw InputError("--device: found cpu, expected a Vulkan device: the reference walks no structure");
+  refuse_reference(flags.device);
   if (!flags.json.empty()) check_writable(flags.json);
   ProgressBar bar(flags.verbosity);
   const GrowthReport report = measure(flags, bar);

@@ -44,4 +44,8 @@ CLI::Option* add_blocks(CLI::App& app, const std::string& flag, std::vector<int>
                     "Edges of the structures' blocks in cells, powers of two");
 }
 
+void refuse_reference(std::string_view device) {
+  if (device == "cpu") throw InputError("--device: found cpu, expected a Vulkan device: the reference walks no structure");
+}
+
 }  // namespace quincunx

@@ -1,8 +1,9 @@
-// Flags that list ways to skip.
+// Flags of programs that compare ways to skip.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quincunx {
@@ -12,5 +13,8 @@ CLI::Option* add_structures(CLI::App& app, std::vector<std::string>& labels);
 
 /// A flag of edges of blocks, powers of two from 1 to 256, no two alike; `blocks` ascends and holds the default.
 CLI::Option* add_blocks(CLI::App& app, const std::string& flag, std::vector<int>& blocks);
+
+/// Throws InputError where --device names the reference, which walks none of them.
+void refuse_reference(std::string_view device);
 
 }  // namespace quincunx

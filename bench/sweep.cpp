@@ -86,7 +86,7 @@ void write_outputs(const SweepReport& report, const OutputFolder& folder) {
 }
 
 void sweep(const SweepFlags& flags) {
-  if (flags.device == "cpu") throw InputError("--device: found cpu, expected a Vulkan device: the reference walks no structure");
+  refuse_reference(flags.device);
   OutputFolder folder(flags.folder);
   ProgressBar bar(flags.verbosity);
   const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
