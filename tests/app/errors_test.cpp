@@ -1,5 +1,4 @@
 // Bad input: status 2, exactly one line on standard error, nothing on standard output, nothing written.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -10,28 +9,14 @@
 namespace quincunx::test {
 namespace {
 
-using testing::HasSubstr;
-
 /// A folder with a good BCC volume (bcc.nrrd), a Cartesian one (cartesian.nrrd) and one point (p.csv).
-class Errors : public testing::Test {
+class Errors : public ProgramInFolder {
  protected:
   void SetUp() override {
     const auto ramp = [](const glm::dvec3& x) { return x.x + x.y; };
     write_volume(make_volume(LatticeKind::bcc, {4, 4, 4}, {}, ramp), bcc, Encoding::raw);
     write_volume(make_volume(LatticeKind::cartesian, {4, 4, 4}, {}, ramp), cartesian, Encoding::raw);
     write_file(points, "1,1,1\n");
-  }
-
-  /// Expects the refusal of `arguments` in one line with each of `parts`.
-  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
-    SCOPED_TRACE(testing::PrintToString(arguments));
-    const auto before = folder.names();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
-    for (const std::string& part : parts) EXPECT_THAT(outcome.err, HasSubstr(part));
-    EXPECT_EQ(folder.names(), before);
   }
 
   /// `render` of `volume` at isovalue 3 to out.png with more arguments.
@@ -41,7 +26,6 @@ class Errors : public testing::Test {
     return arguments;
   }
 
-  const TemporaryFolder folder;
   const std::string bcc = folder / "bcc.nrrd", cartesian = folder / "cartesian.nrrd", points = folder / "p.csv";
   const std::string out = folder / "out.png", missing = folder / "missing.nrrd";
 };

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "app/render_flags.h"
+#include "lattice/error.h"
 
 namespace quincunx::test {
 namespace {
@@ -64,6 +68,39 @@ Outcome run_and_signal(const Arguments& arguments, int signal, const std::functi
 }
 
 Outcome run(const Arguments& arguments) { return run_and_signal(arguments, 0, {}); }
+
+void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+  const std::string program = std::filesystem::path(QUINCUNX_PROGRAM).filename().string();
+  EXPECT_THAT(outcome.err, testing::StartsWith(program + ": "));
+  for (const std::string& part : parts) EXPECT_THAT(outcome.err, testing::HasSubstr(part));
+}
+
+std::string render_refusal(Arguments arguments) {
+  CLI::App app;
+  RenderFlags flags;
+  add_render_flags(app, flags);
+  std::reverse(arguments.begin(), arguments.end());  // the parser takes them from the back
+  try {
+    app.parse(arguments);
+    check_render_flags(flags);
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void ProgramInFolder::expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
+  const auto before = folder.names();
+  test::expect_refused(arguments, parts);
+  EXPECT_EQ(folder.names(), before) << testing::PrintToString(arguments);
+}
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "quincunx-XXXXXX").string();

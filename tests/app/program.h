@@ -1,6 +1,7 @@
 // The program as a user runs it: arguments in; status, standard output and standard error out.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -26,6 +27,13 @@ Outcome run(const Arguments& arguments);
 /// Where the program ends by itself before that, that is its outcome.
 Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool()>& ready);
 
+/// Expects bad input: status 2, nothing on standard output, one line on standard error that begins with the program's name and
+/// holds each of `parts`.
+void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts);
+
+/// What is wrong with the arguments of `render` before any file is read; "" where nothing is.
+std::string render_refusal(Arguments arguments);
+
 /// A new folder that goes with the object.
 class TemporaryFolder {
  public:
@@ -41,6 +49,15 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+};
+
+/// Tests of the program that write to a folder.
+class ProgramInFolder : public testing::Test {
+ protected:
+  /// expect_refused, and that no file came or went.
+  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const;
+
+  const TemporaryFolder folder;
 };
 
 std::string read_file(const std::string& path);

@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "lattice/error.h"
 #include "program.h"
 
 namespace quincunx::test {
@@ -14,27 +11,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What is wrong with the arguments of `render` before any file is read; "" where nothing is.
-std::string refusal(Arguments arguments) {
-  CLI::App app;
-  RenderFlags flags;
-  add_render_flags(app, flags);
-  std::reverse(arguments.begin(), arguments.end());  // the parser takes them from the back
-  try {
-    app.parse(arguments);
-    check_render_flags(flags);
-  } catch (const InputError& error) {
-    return error.what();
-  } catch (const CLI::ParseError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// The same for an otherwise good command line.
+/// What is wrong with an otherwise good command line; "" where nothing is.
 std::string refusal_with(Arguments more) {
   more.insert(more.begin(), {"volume.nrrd", "--iso", "1,2,3", "--json"});
-  return refusal(std::move(more));
+  return render_refusal(std::move(more));
 }
 
 TEST(RenderFlags, AreAllTakenTogether) {
@@ -50,7 +30,7 @@ TEST(RenderFlags, AreAllTakenTogether) {
   EXPECT_EQ(
       refusal_with({"--eye", "-1", "-2", "-3", "--target", "0", "0", "-1", "--up", "0", "-1", "0", "--fov", "20"}), "");
   EXPECT_EQ(refusal_with({"--color", "#ff0000,#00ff00,#0000ff"}), "");
-  EXPECT_EQ(refusal({"volume.nrrd", "--iso", "-700", "--explain"}), "");
+  EXPECT_EQ(render_refusal({"volume.nrrd", "--iso", "-700", "--explain"}), "");
 }
 
 TEST(RenderFlags, WithBadNumbersAreNamed) {
@@ -112,8 +92,8 @@ TEST(RenderFlags, NameFilesThatCanBeWritten) {
 }
 
 TEST(RenderFlags, NeedAnIsovalueAndSomethingToMake) {
-  EXPECT_THAT(refusal({"volume.nrrd", "--json"}), AllOf(HasSubstr("--iso"), HasSubstr("quincunx info")));
-  EXPECT_THAT(refusal({"volume.nrrd", "--iso", "1"}), HasSubstr("-o"));
+  EXPECT_THAT(render_refusal({"volume.nrrd", "--json"}), AllOf(HasSubstr("--iso"), HasSubstr("quincunx info")));
+  EXPECT_THAT(render_refusal({"volume.nrrd", "--iso", "1"}), HasSubstr("-o"));
 }
 
 }  // namespace

@@ -119,18 +119,12 @@ TEST(ClusterProgram, PrintsMarkdownWithItsCaptionLast) {
 }
 
 TEST(ClusterProgram, RefusesBadInputInOneLine) {
-  const auto expect_refused = [](const test::Arguments& arguments, const std::string& part) {
-    const test::Outcome outcome = test::run(arguments);
-    EXPECT_EQ(outcome.status, 2) << part;
-    EXPECT_EQ(test::lines(outcome.err).size(), 1u) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(part));
-  };
-  expect_refused({"cluster", "a.nrrd"}, "found 0 isovalues for 1 volume,");
-  expect_refused({"cluster", "a.nrrd", "--iso", "1,2"}, "found 2 isovalues for 1 volume,");
-  expect_refused({"cluster", "--iso", "1"}, "found no volume");
-  expect_refused({"cluster", "--sizes", "0"}, "--sizes");
-  expect_refused({"cluster", "--max-cluster", "300"}, "--max-cluster");
-  expect_refused({"cluster", "--blocks", "3"}, "--blocks");
+  test::expect_refused({"cluster", "a.nrrd"}, {"found 0 isovalues for 1 volume,"});
+  test::expect_refused({"cluster", "a.nrrd", "--iso", "1,2"}, {"found 2 isovalues for 1 volume,"});
+  test::expect_refused({"cluster", "--iso", "1"}, {"found no volume"});
+  test::expect_refused({"cluster", "--sizes", "0"}, {"--sizes"});
+  test::expect_refused({"cluster", "--max-cluster", "300"}, {"--max-cluster"});
+  test::expect_refused({"cluster", "--blocks", "3"}, {"--blocks"});
 }
 
 }  // namespace

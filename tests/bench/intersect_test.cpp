@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class IntersectBench : public testing::Test {
+class IntersectBench : public ProgramInFolder {
  protected:
   IntersectBench() {
     write_volume(sample_field(*make_field("marschner-lobb"), LatticeKind::bcc, {10, 10, 10}), volume);
@@ -25,19 +25,7 @@ class IntersectBench : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
-    SCOPED_TRACE(testing::PrintToString(arguments));
-    const auto before = folder.names();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
-    EXPECT_THAT(outcome.err, testing::StartsWith("quincunx-bench: "));
-    for (const std::string& part : parts) EXPECT_THAT(outcome.err, HasSubstr(part));
-    EXPECT_EQ(folder.names(), before);
-  }
 
-  const TemporaryFolder folder;
   const std::string volume = folder / "ml.nrrd";
 };
 

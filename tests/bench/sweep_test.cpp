@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 const std::string kNeghip = QUINCUNX_SOURCE_DIR "/data/neghip_bcc.nrrd";
 
-class SweepProgram : public testing::Test {
+class SweepProgram : public ProgramInFolder {
  protected:
   /// Quick, unless `more` says otherwise.
   Arguments sweep(const Arguments& more) const {
@@ -32,18 +32,7 @@ class SweepProgram : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
-    SCOPED_TRACE(testing::PrintToString(arguments));
-    const auto before = folder.names();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
-    for (const std::string& part : parts) EXPECT_THAT(outcome.err, HasSubstr(part));
-    EXPECT_EQ(folder.names(), before);
-  }
 
-  const TemporaryFolder folder;
   const std::string out = folder / "out";
 };
 
