@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accel/bounds.h"
+#include "accel/skip_config.h"
 
 namespace quincunx {
 
@@ -34,8 +35,9 @@ struct Classification {
   std::size_t active_blocks = 0;
 };
 
-/// Classifies blocks for `ranges`, at most 254 of them. A block whose interval touches one is active.
-Classification classify(const BlockBounds& bounds, const ValueScale& scale, std::span<const ValueRange> ranges);
+/// Classifies blocks for `ranges`, at most 254 of them. A block whose interval touches one, in the eyes of `query`, is active.
+Classification classify(const BlockBounds& bounds, const ValueScale& scale, std::span<const ValueRange> ranges,
+                        RangeQueryKind query = RangeQueryKind::intervals);
 
 /// One bit per cell: set where the cell's own interval touches a range. Bricks of 4x4x4 cells, x fastest; bit
 /// z*16 + y*4 + x of a brick's word for the cell (x,y,z) in it. Cells outside the volume are 0.
@@ -44,6 +46,7 @@ struct CellOccupancy {
   std::vector<std::uint64_t> words;
   std::size_t active_cells = 0;
 };
-CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ranges);
+CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ranges,
+                        RangeQueryKind query = RangeQueryKind::intervals);
 
 }  // namespace quincunx

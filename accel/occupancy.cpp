@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "accel/classification.h"
-#include "accel/thresholds.h"
+#include "accel/range_query.h"
 
 namespace quincunx {
 namespace {
@@ -15,13 +15,8 @@ namespace {
 constexpr std::int64_t kBrick = 4;
 constexpr std::size_t kFewWindows = 8;  // up to here a vectorised comparison with each beats looking up tables
 
-/// mask[x] = 1 where the interval of cell x of a row touches a range, else 0.
-void touching(const Thresholds& thresholds, const std::uint16_t* min, const std::uint16_t* max, std::int64_t n,
-              std::uint8_t* mask) {
-  if (thresholds.windows().size() > kFewWindows) {
-    for (std::int64_t x = 0; x < n; ++x) mask[x] = thresholds.touches(min[x], max[x]);
-    return;
-  }
+/// The same as Thresholds::touches of `n` intervals: mask[x] = 1 where interval x touches a range, else 0.
+void touching_windows(const Thresholds& thresholds, const std::uint16_t* min, const std::uint16_t* max, std::int64_t n, std::uint8_t* mask) {
   std::memset(mask, 0, std::size_t(n));
   for (const auto [highest_min, lowest_max] : thresholds.windows())
     for (std::int64_t x = 0; x < n; ++x) mask[x] |= std::uint8_t((min[x] <= highest_min) & (max[x] >= lowest_max));
@@ -35,10 +30,9 @@ std::uint64_t pack(const std::uint8_t* mask) {
   return bytes * 0x01020408u >> 24 & 0xFu;
 }
 
-}  // namespace
-
-CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ranges) {
-  const Thresholds thresholds(bounds, ranges);
+/// Asks `mark(min, max, n, mask)` for the marks of row after row of cells.
+template <class Mark>
+CellOccupancy marked_cells(const CellBounds& bounds, const Mark& mark) {
   CellOccupancy o;
   o.bricks = (bounds.cells + (kBrick - 1)) / kBrick;
   o.words.resize(std::size_t(o.bricks.x * o.bricks.y * o.bricks.z));
@@ -54,7 +48,7 @@ CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ra
             const std::int64_t y = row % o.bricks.y * kBrick + yz % kBrick, z = row / o.bricks.y * kBrick + yz / kBrick;
             if (y >= bounds.cells.y || z >= bounds.cells.z) continue;
             const std::size_t first = bounds.number({0, y, z});
-            touching(thresholds, bounds.min.data() + first, bounds.max.data() + first, bounds.cells.x, mask.data());
+            mark(bounds.min.data() + first, bounds.max.data() + first, bounds.cells.x, mask.data());
             for (std::int64_t x = 0; x < o.bricks.x; ++x) words[x] |= pack(mask.data() + x * kBrick) << (4 * yz);
           }
           for (std::int64_t x = 0; x < o.bricks.x; ++x) active += std::size_t(std::popcount(words[x]));
@@ -63,6 +57,21 @@ CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ra
       },
       std::plus<>());
   return o;
+}
+
+}  // namespace
+
+CellOccupancy occupancy(const CellBounds& bounds, std::span<const ValueRange> ranges, RangeQueryKind query) {
+  const Thresholds thresholds(bounds, ranges);
+  if (query == RangeQueryKind::intervals && thresholds.windows().size() <= kFewWindows)
+    return marked_cells(bounds, [&](const std::uint16_t* min, const std::uint16_t* max, std::int64_t n, std::uint8_t* mask) {
+      touching_windows(thresholds, min, max, n, mask);
+    });
+  return with_range_test(query, thresholds, [&](const auto& touches) {
+    return marked_cells(bounds, [&](const std::uint16_t* min, const std::uint16_t* max, std::int64_t n, std::uint8_t* mask) {
+      for (std::int64_t x = 0; x < n; ++x) mask[x] = touches(min[x], max[x]);
+    });
+  });
 }
 
 }  // namespace quincunx

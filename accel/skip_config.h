@@ -11,6 +11,10 @@ enum class Clustering { none, cubes, boxes };
 /// How far a k-d tree splits: to a few large leaves, or down to a few samples (accel/kdtree.h).
 enum class KdDepth { shallow, deep };
 
+/// How blocks and cells are compared with what can be seen (accel/range_query.h): exactly, or as published, by a table or a tree over
+/// 4096 entries, which hold a little more to be visible.
+enum class RangeQueryKind { intervals, table, irt };
+
 struct SkipConfig {
   std::string structure = "auto";  ///< a name of structure_names(), or "auto": what fits the scene (accel/choose_skip.h)
   int block = 0;                   ///< edge of a block in cells, a power of two, 1..256; 0: what fits
@@ -18,6 +22,7 @@ struct SkipConfig {
   Clustering clustering = Clustering::none;  ///< of bvh
   int max_cluster = 16;                      ///< of Clustering::cubes: the largest edge in blocks, 1..256
   KdDepth kd = KdDepth::deep;                ///< of kdtree
+  RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of octree, which compares inside the kernel
 
   bool operator==(const SkipConfig&) const = default;
 };

@@ -74,6 +74,10 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   add_parsed(app, "--kd", kd, "{shallow,deep}", std::string(kd_name(flags.config.kd)),
              "Of kdtree: a few large leaves, sorted for each picture, or small ones that each ray looks for")
       ->group(group);
+  add_choice(app, "--range-query", flags.config.range_query,
+             {{"intervals", RangeQueryKind::intervals}, {"table", RangeQueryKind::table}, {"irt", RangeQueryKind::irt}},
+             "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of octree's blocks")
+      ->group(group);
 }
 
 void check_skip_flags(const SkipFlags& flags) {

@@ -14,7 +14,7 @@ struct SkipFlags {
   bool clustering_given = false, max_cluster_given = false, kd_given = false;
 };
 
-/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd.
+/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd, --range-query.
 void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group);
 
 /// Throws InputError naming the flag where one was given that the structure of --skip does not have.

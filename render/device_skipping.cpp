@@ -40,9 +40,10 @@ bool DeviceSkipping::same_kind(const SkipConfig& config) const {
   return structure_ && same == config_;
 }
 
-void DeviceSkipping::set_ranges(std::span<const ValueRange> ranges) {
-  if (std::ranges::equal(ranges, ranges_)) return;
+void DeviceSkipping::set_ranges(std::span<const ValueRange> ranges, RangeQueryKind query) {
+  if (std::ranges::equal(ranges, ranges_) && query == query_) return;
   ranges_.assign(ranges.begin(), ranges.end());
+  query_ = query;
   classified_.clear();
   occupancy_.reset();
   built_for_ranges_ = false;
@@ -53,13 +54,13 @@ const Classification& DeviceSkipping::classified(VolumeBounds& bounds, int block
   if (known != classified_.end()) return known->second;
   const BlockBounds& blocks = bounds.blocks(block, stats.bounds_ms);
   const Stopwatch watch;
-  const Classification& made = classified_.emplace(block, classify(blocks, bounds.scale(), ranges_)).first->second;
+  const Classification& made = classified_.emplace(block, classify(blocks, bounds.scale(), ranges_, query_)).first->second;
   stats.classify_ms += watch.ms();
   return made;
 }
 
 SkipChoice DeviceSkipping::choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, RenderStats& stats) {
-  set_ranges(ranges);
+  set_ranges(ranges, wanted.range_query);
   const bool looks = wanted.structure == "auto";
   const int block = std::max(kChoiceBlock, bounds.finest());
   SkipChoice choice = choose_skip(wanted, looks ? classified(bounds, block, stats) : Classification{}, {.cpu = gpu::info(device_).type == "CPU"});
@@ -99,7 +100,7 @@ void DeviceSkipping::prepare_structure(const SkipConfig& config, VolumeBounds& b
 void DeviceSkipping::classify_cells(const CellBounds& cells, RenderStats& stats) {
   if (occupancy_) return;
   const Stopwatch watch;
-  occupancy_ = occupancy(cells, ranges_);
+  occupancy_ = occupancy(cells, ranges_, query_);
   occupancy_uploaded_ = false;
   stats.classify_ms += watch.ms();
 }
@@ -156,7 +157,7 @@ void DeviceSkipping::describe(RenderStats& stats) const {
 void DeviceSkipping::prepare(const SkipConfig& config, VolumeBounds* bounds, std::span<const ValueRange> ranges, const glm::dvec3& eye,
                              RenderStats& stats) {
   if (config.structure != "none") check_config(config);
-  set_ranges(ranges);
+  set_ranges(ranges, config.range_query);
   if (bounds) {
     prepare_structure(config, *bounds, stats);
   } else if (!same_kind(config)) {

@@ -46,8 +46,8 @@ class DeviceSkipping {
   };
 
   bool same_kind(const SkipConfig& config) const;
-  /// Forgets what was classified for other ranges.
-  void set_ranges(std::span<const ValueRange> ranges);
+  /// Forgets what was classified for other ranges, or by another query.
+  void set_ranges(std::span<const ValueRange> ranges, RangeQueryKind query);
   const Classification& classified(VolumeBounds& bounds, int block, RenderStats& stats);
   void prepare_structure(const SkipConfig& config, VolumeBounds& bounds, RenderStats& stats);
   void classify_cells(const CellBounds& cells, RenderStats& stats);
@@ -57,6 +57,7 @@ class DeviceSkipping {
   gpu::Device& device_;
   SkipConfig config_;
   std::vector<ValueRange> ranges_;
+  RangeQueryKind query_ = RangeQueryKind::intervals;  ///< by which ranges_ are looked for
   std::map<int, Classification> classified_;  ///< for ranges_, by block size
   std::optional<CellOccupancy> occupancy_;    ///< for ranges_
   std::unique_ptr<SkippingStructure> structure_;

@@ -48,6 +48,12 @@ TEST(SkipFlags, MeanTheConfigurationOfTheirLabel) {
   for (const std::string_view label : skip_labels()) EXPECT_EQ(config_of(flags_of(label)), labelled_skip(label)) << label;
 }
 
+TEST(SkipFlags, NameHowRangesAreLookedFor) {
+  EXPECT_EQ(config_of({"--range-query", "intervals"}), SkipConfig{});
+  EXPECT_EQ(config_of({"--range-query", "table"}).range_query, RangeQueryKind::table);
+  EXPECT_EQ(config_of({"--skip", "grid", "--range-query", "irt"}).range_query, RangeQueryKind::irt);
+}
+
 TEST(SkipFlags, TakeCubesWhereNoClusteringIsNamed) {
   EXPECT_EQ(config_of({"--skip", "bvh", "--cluster"}).clustering, Clustering::cubes);
   EXPECT_EQ(config_of({"--cluster", "--skip", "bvh"}).clustering, Clustering::cubes);
@@ -71,6 +77,7 @@ TEST(SkipFlags, OfAnotherStructureAreRefusedInOneLine) {
       {{"--skip", "bvh", "--cluster", "boxes", "--max-cluster", "4"}, {"--max-cluster", "--cluster boxes", "--cluster cubes"}},
       {{"--skip", "bvh", "--cluster", "spheres"}, {"--cluster", "'spheres'", "none, cubes, boxes"}},
       {{"--skip", "bvh", "--cluster", "cubes", "--max-cluster", "0"}, {"--max-cluster", "0", "from 1 to 256"}},
+      {{"--range-query", "tree"}, {"--range-query", "'tree'", "intervals, table, irt"}},
       {{"--skip", "kdtree", "--kd", "half"}, {"--kd", "'half'", "shallow, deep"}},
       {{"--block", "12"}, {"--block", "12", "power of two"}}};
   for (const auto& [flags, parts] : cases) {

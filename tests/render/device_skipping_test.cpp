@@ -110,6 +110,32 @@ TEST_F(EverySetting, ShowsManySurfacesAtOnceAsNoneDoes) {
   compare_all({{c.name, c.volume, request}}, {2, 8});
 }
 
+TEST_F(EverySetting, ShowsTheSamePictureHoweverRangesAreLookedFor) {
+  std::uint64_t more = 0;
+  for (const AdversarialVolume& c : adversarial_volumes()) {
+    Renderer::Request request = view_of(c, 0, 16);
+    DeviceRenderer renderer(test_kernels(), c.volume, Renderer::Config{});
+    RenderStats stats;
+    request.skip.structure = "none";
+    const Frame truth = renderer.render(request, stats);
+    std::vector<std::uint64_t> blocks, cells;
+    for (const RangeQueryKind query : {RangeQueryKind::intervals, RangeQueryKind::table, RangeQueryKind::irt, RangeQueryKind::intervals}) {
+      SCOPED_TRACE(c.name + ", query " + std::to_string(int(query)));
+      request.skip = {.structure = "grid", .block = 2, .range_query = query};
+      expect_same_picture(renderer.render(request, stats), truth);
+      blocks.push_back(stats.active_blocks);
+      cells.push_back(stats.active_cells);
+    }
+    for (const std::vector<std::uint64_t>& active : {blocks, cells}) {
+      EXPECT_GE(active[1], active[0]) << "by entries";
+      more += active[1] - active[0];
+      EXPECT_EQ(active[2], active[1]);
+      EXPECT_EQ(active[3], active[0]) << "nothing is left of the query before";
+    }
+  }
+  EXPECT_GT(more, 0u) << "the queries were asked";
+}
+
 TEST_F(EverySetting, HoldsNoPointOfTheSurfaceInWhatItSkips) {
   SkippedSpace all;
   std::uint32_t seed = 1;
