@@ -1,7 +1,6 @@
 // What fills the slots of a brick pool.
 #pragma once
 
-#include <memory>
 #include <span>
 
 #include "accel/bricks.h"
