@@ -16,6 +16,7 @@
 #include "app/volume_input.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/sample_file.h"
 
 namespace quincunx {
 namespace {
@@ -26,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 /// What a summary needs beside the flags.
 struct Outcome {
   Json stats;
-  SampleRange range;         ///< of the samples
+  std::optional<SampleRange> range;  ///< of the samples, where they are in memory
   bool walked_only = false;  ///< nothing could be hit
 };
 
@@ -62,16 +63,36 @@ void print_summary(const RenderFlags& flags, const Outcome& outcome) {
              ms.is_null() ? "" : fmt::format(", {:.1f} ms a frame", ms.get<double>()),
              outcome.stats["device"].get<std::string>());
   if (hits == 0 && !outcome.walked_only) {
-    fmt::print(stderr, "note: nothing was hit; the samples go from {:g} to {:g}\n", outcome.range.min,
-               outcome.range.max);
+    fmt::print(stderr, "note: nothing was hit{}\n",
+               outcome.range ? fmt::format("; the samples go from {:g} to {:g}", outcome.range->min, outcome.range->max) : "");
   }
 }
 
-Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Request& request, const Volume& volume,
-              double read_ms, ProgressBar& bar) {
+/// A volume that was opened: with its samples, or, where they stay in the file, with a source of them.
+struct Opened {
+  Volume volume;
+  std::shared_ptr<const SampleSource> source;
+  double read_ms = 0.0;
+};
+
+Opened open_volume(const RenderFlags& flags, ProgressBar& bar) {
+  const Clock::time_point start = Clock::now();
+  Opened opened;
+  if (flags.config.pool_bytes) {
+    opened.source = std::make_shared<SampleFile>(flags.volume, SampleFile::Config{flags.scratch}, bar.stage("unpacking"));
+    opened.volume = opened.source->header();
+  } else {
+    opened.volume = read_finite_volume(flags.volume, bar.stage("reading"));
+  }
+  opened.read_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return opened;
+}
+
+Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Request& request, const Opened& opened, ProgressBar& bar) {
   RenderStats stats;
   const Frame frame = renderer.render(request, stats, bar.stage("rendering"));
-  Outcome outcome{stats_json(flags.volume, request, stats, read_ms), sample_range(volume), request.scene.stub_sampling};
+  Outcome outcome{stats_json(flags.volume, request, stats, opened.read_ms), std::nullopt, request.scene.stub_sampling};
+  if (!opened.source) outcome.range = sample_range(opened.volume);
   std::optional<HeatMap> heat;
   if (flags.heat != HeatKind::none) {
     check_heat(flags.heat, request.scene, stats.skip.structure);
@@ -85,17 +106,15 @@ Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Requ
 void render(const RenderFlags& flags) {
   check_render_flags(flags);
   ProgressBar bar(flags.verbosity);
-  const Clock::time_point start = Clock::now();
-  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"));
-  const double read_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-
-  const Renderer::Request request = make_request(flags, volume);
-  const auto renderer = make_renderer(flags.device, volume, flags.config);
+  const Opened opened = open_volume(flags, bar);
+  const Renderer::Request request = make_request(flags, opened.volume);
+  const auto renderer = opened.source ? make_renderer(flags.device, opened.source, flags.volume, flags.config)
+                                      : make_renderer(flags.device, opened.volume, flags.config);
   stop_if_interrupted();
   Json printed = Json::object();
   Outcome outcome;
   if (flags.renders()) {
-    outcome = trace(flags, *renderer, request, volume, read_ms, bar);
+    outcome = trace(flags, *renderer, request, opened, bar);
     printed = outcome.stats;
     printed["images"] = flags.images;
   }

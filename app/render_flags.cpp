@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <filesystem>
 #include <set>
@@ -30,6 +31,13 @@ void append_colors(const std::string& text, std::vector<glm::dvec3>& colors) {
     colors.push_back(parse_color(text.substr(start, comma - start), "--color"));
     start = comma + 1;
   }
+}
+
+/// The edge of a brick that is all of `text`.
+int parse_brick(const std::string& text) {
+  const std::int64_t edge = parse_integer(text, "--brick", 4, 256);
+  if (!std::has_single_bit(std::uint64_t(edge))) throw InputError(fmt::format("--brick: found {}, expected a power of two from 4 to 256", edge));
+  return int(edge);
 }
 
 void add_surface_flags(CLI::App& app, RenderFlags& flags) {
@@ -112,6 +120,12 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
          "Take the samples themselves as coefficients")
       ->group(group);
   add_skip_flags(app, flags.skip, group);
+  const auto pool = [&flags](const std::string& text) { flags.config.pool_bytes = parse_bytes(text, "--pool"); };
+  add_parsed(app, "--pool", pool, "BYTES", "", "Read the volume brick by brick and keep at most so much of it on the device: 256M, 2G")
+      ->group(group);
+  const auto brick = [&flags](const std::string& text) { flags.config.brick = parse_brick(text); };
+  add_parsed(app, "--brick", brick, "N", "32", "Edge of the pool's bricks in cells, a power of two from 4 to 256")->group(group);
+  app.add_option("--scratch", flags.scratch, "Folder where a packed volume is unpacked for --pool; else TMPDIR or /tmp")->type_name("DIR")->group(group);
   app.add_flag("--stub-sampling", flags.scene.stub_sampling,
                "Walk the structure to the end of each ray and evaluate nothing: traversal alone")
       ->group(group);

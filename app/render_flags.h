@@ -28,6 +28,7 @@ struct RenderFlags {
   bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through
   SkipFlags skip;
   Renderer::Config config;
+  std::string scratch;  ///< folder for unpacked samples of a pool
   std::string device;
   int repeat = 1;
   bool explain = false, json = false;

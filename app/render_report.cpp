@@ -67,11 +67,27 @@ double percentile(std::vector<double> values, double fraction) {
   return std::lerp(values[below], values[above], place - double(below));
 }
 
+/// How a volume was looked at.
+Json volume_json(const DirectVolume& volume) {
+  Json json{{"classify", volume.classify == Classify::post ? "post" : "pre-integrated"}, {"entries", volume.table_entries()},
+            {"step", volume.step}, {"shade", volume.shade}, {"termination", volume.termination}};
+  if (volume.adaptive) json["adaptive"] = volume.finest;
+  if (volume.modulated()) json["modulate"] = {volume.modulate_from, volume.modulate_to};
+  if (volume.jitter) json["jitter"] = *volume.jitter;
+  return json;
+}
+
+Json bricks_json(const BrickStats& bricks) {
+  return {{"edge", bricks.edge}, {"count", bricks.count}, {"slots", bricks.slots}, {"resident", bricks.resident}, {"loads", bricks.loads},
+          {"evictions", bricks.evictions}, {"loaded_bytes", bricks.loaded_bytes}, {"rounds", bricks.rounds}, {"load_ms", bricks.load_ms}};
+}
+
 Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats, double read_ms) {
   const Scene& scene = request.scene;
   const std::vector<double>& frames = stats.trace_ms;
   Json json{{"volume", volume}, {"device", stats.device}, {"size", {scene.width, scene.height}}};
-  for (const Isosurface& surface : scene.isosurfaces) json["isovalues"].push_back(surface.isovalue);
+  json["isovalues"] = isovalues_of(scene.isosurfaces);
+  if (scene.volume) json["transfer_function"] = volume_json(*scene.volume);
   json["intersect"] = scene.intersect == Intersect::exact ? "exact" : "march";
   if (scene.intersect == Intersect::march) json["step"] = scene.step;
   json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
@@ -92,7 +108,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["stages_ms"] = {{"read", read_ms},           {"prefilter", stats.prefilter_ms},
                        {"bounds", stats.bounds_ms}, {"classify", stats.classify_ms},
                        {"cluster", stats.cluster_ms}, {"build", stats.build_ms},
-                       {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
+                       {"table", stats.table_ms},   {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
   json["rays"] = stats.rays;
   json["hits"] = stats.hits;
   json["evaluations"] = stats.evaluations;
@@ -104,6 +120,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["leaves"] = stats.leaves;
   json["nodes"] = stats.nodes;
   json["depth"] = stats.depth;
+  if (stats.bricks.edge > 0) json["bricks"] = bricks_json(stats.bricks);
   json["device_bytes"] = Json::object();
   for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;
   return json;

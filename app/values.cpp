@@ -87,6 +87,18 @@ glm::dvec3 srgb_color(std::uint32_t rrggbb) {
   return {channel(16), channel(8), channel(0)};
 }
 
+std::uint64_t parse_bytes(std::string_view text, std::string_view flag) {
+  constexpr std::string_view kUnits = "KMGT";
+  const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+  const double scale = unit == std::string_view::npos ? 1.0 : std::exp2(10.0 * double(unit + 1));
+  const std::string_view digits = unit == std::string_view::npos ? text : text.substr(0, text.size() - 1);
+  double number = -1.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
+  if (error != std::errc() || end != digits.data() + digits.size() || !(number >= 0.0 && number * scale <= 0x1p53))
+    throw InputError(fmt::format("{}: found {}, expected bytes, such as 256M or 1.5G", flag, text));
+  return std::uint64_t(number * scale);
+}
+
 std::string readable_bytes(double bytes) {
   constexpr std::array units{"bytes", "KiB", "MiB", "GiB", "TiB", "PiB"};
   std::size_t unit = 0;

@@ -27,6 +27,9 @@ glm::dvec3 parse_color(std::string_view text, std::string_view flag);
 /// "#rrggbb" of sRGB as linear RGB (IEC 61966-2-1).
 glm::dvec3 srgb_color(std::uint32_t rrggbb);
 
+/// Bytes: a number that may end in K, M, G or T (1024 and its powers). Throws InputError naming `flag`.
+std::uint64_t parse_bytes(std::string_view text, std::string_view flag);
+
 /// Bytes for people: "3.8 MiB".
 std::string readable_bytes(double bytes);
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "accel/streamed_bounds.h"
 #include "lattice/error.h"
 #include "lattice/stopwatch.h"
 #include "render/seen_values.h"
@@ -15,11 +17,11 @@ namespace quincunx {
 namespace {
 
 constexpr int kTile = 8;                     // pixels of a group's edge
-constexpr int kMaxCoefficientBuffers = 8;    // bindings of coefficients.glsl
 constexpr std::int64_t kBandPixels = 1 << 21;  // of one dispatch at most, so that progress and Ctrl-C come through
 constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
 constexpr std::uint64_t kRayBytes = 16;        // of the list of rays.glsl
 constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
+constexpr std::uint64_t kParkedBytes = 96;     // of a ray of park.glsl
 constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
 constexpr std::int64_t kMostCells = 65535;     // along an axis: lists of roots and boxes hold 16 bits (root.glsl, box.glsl)
 constexpr std::uint32_t kRaysPerLane = 16;     // of the seeking pass, one after another, on a CPU
@@ -33,35 +35,46 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
     : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits),
-      spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume), skipping_(device_) {
+      spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume), skipping_(std::in_place, device_) {
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
 }
 
+DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared_ptr<const SampleSource> source, const std::string& what,
+                               const Config& config, const DeviceLimits& limits)
+    : DeviceRenderer(std::move(kernels), source->header(), config, limits) {
+  assert(config.pool_bytes);
+  source_ = std::move(source);
+  what_ = what;
+}
+
 // ---- what a request needs ----
 
-DeviceRenderer::CoefficientLayout DeviceRenderer::coefficient_layout() const {
+void DeviceRenderer::check_cells() const {
   const glm::i64vec3 cells = domain_max(volume_.lattice, volume_.extents);
   if (std::max(cells.x, std::max(cells.y, cells.z)) > kMostCells)
     throw InputError(fmt::format("volume: {} x {} x {} cells; expected at most {} along an axis", cells.x, cells.y, cells.z, kMostCells));
+}
+
+TexelLayout DeviceRenderer::coefficient_layout() const {
+  if (bricks_) return bricks_->texels();
+  if (coefficients_) return texels_.layout();
+  check_cells();
   const glm::i64vec3 p = volume_.extents + std::int64_t(2 * spline_->apron());
-  const std::uint64_t count = std::uint64_t(coset_count(volume_.lattice)) * p.x * p.y * p.z;
-  if (count > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
-    throw InputError(fmt::format("volume: {} coefficients with their border; expected at most 2^31 - 1", count));
-  if (count <= limits_.texel_elements) return {};
-  const int shift = std::bit_width(limits_.texel_elements) - 1;
-  const std::uint64_t buffers = (count + (std::uint64_t(1) << shift) - 1) >> shift;
-  if (buffers > kMaxCoefficientBuffers)
-    throw gpu::DeviceError(fmt::format("{}: {} coefficients need {} texel buffers of 2^{} elements; expected at most {}",
-                                       gpu::info(device_).name, count, buffers, shift, kMaxCoefficientBuffers));
-  return {int(buffers), shift};
+  return texel_layout(std::uint64_t(coset_count(volume_.lattice)) * p.x * p.y * p.z, limits_.texel_elements, gpu::info(device_).name);
+}
+
+void DeviceRenderer::check_bricks(const Scene& scene) const {
+  if (!source_ || scene.isosurfaces.empty()) return;
+  if (scene.intersect == Intersect::march) throw InputError("--pool: found --intersect march, expected --intersect exact");
+  if (scene.normal == Normal::central) throw InputError("--pool: found --normal central, whose differences reach beyond a brick; expected --normal analytic");
 }
 
 KernelVariant DeviceRenderer::variant(const Request& request) const {
   const std::vector<Isosurface> surfaces = visible_surfaces(request.scene);
   const std::unique_ptr<SkippingStructure> structure = make_structure(request.skip);
-  const CoefficientLayout layout = coefficient_layout();
+  const TexelLayout layout = coefficient_layout();
   KernelVariant v;
   v.spline_shader = spline_->shader();
   v.structure = structure->name();
@@ -71,7 +84,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.normal = request.scene.normal;
   v.surfaces = !surfaces.empty();
   v.many_isovalues = surfaces.size() > 1;
-  v.composite = std::any_of(surfaces.begin(), surfaces.end(), [&](const Isosurface& s) { return s.opacity < 1.0 || request.scene.volume; });
+  v.composite = std::any_of(surfaces.begin(), surfaces.end(), [&](const Isosurface& s) { return s.opacity < 1.0 || request.scene.volume || source_; });
   if (request.scene.volume) {
     const DirectVolume& volume = *request.scene.volume;
     v.volume = true;
@@ -84,6 +97,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   if (!v.surfaces) v.intersect = Intersect::exact, v.normal = Normal::analytic;
   v.stub = request.scene.stub_sampling;
   v.cost = request.scene.cost || v.stub;
+  v.bricks = source_ != nullptr;
   v.coefficient_buffers = layout.buffers;
   v.coefficient_shift = layout.shift;
   return v;
@@ -108,37 +122,45 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
 
 void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& progress) {
   if (coefficients_) return;
-  const CoefficientLayout layout = coefficient_layout();
+  check_cells();
+  if (source_) {
+    const BrickLayout layout(volume_.lattice, volume_.extents, spline_->apron(), config_.brick);
+    bricks_.emplace(device_, layout, std::make_shared<SampleBricks>(layout, *source_, *spline_, config_.prefilter), *config_.pool_bytes,
+                    limits_.texel_elements);
+    coefficients_ = Coefficients<float>{volume_.lattice, volume_.extents, spline_->apron(), volume_.world, {}};
+    return;
+  }
+  coefficient_layout();
   const Stopwatch prefilter;
   coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, progress);
   stats.prefilter_ms = prefilter.ms();
   volume_.samples = {};
 
   const Stopwatch upload;
-  const std::span<const float> all(coefficients_->data);
-  const std::size_t each = layout.buffers == 1 ? all.size() : std::size_t(1) << layout.shift;
-  for (int i = 0; i < layout.buffers; ++i) {
-    const std::span<const float> part = all.subspan(i * each, std::min(each, all.size() - i * each));
-    // Kernels read every buffer at every number: all are of one length.
-    gpu::Buffer buffer = gpu::create_buffer(device_, each * sizeof(float), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT);
-    gpu::upload(device_, buffer, std::as_bytes(part));
-    coefficient_buffers_.push_back(std::move(buffer));
-  }
+  texels_ = CoefficientTexels(device_, coefficients_->data.size(), limits_.texel_elements, "coefficients");
+  texels_.upload(device_, 0, coefficients_->data);
   stats.upload_ms += upload.ms();
 }
 
-void DeviceRenderer::prepare_bounds(RenderStats& stats, const Progress& progress) {
-  if (bounds_) return;
+void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress) {
+  const int finest = source_ ? std::min(request.skip.block > 0 ? request.skip.block : kChoiceBlock, config_.brick) : 1;
+  if (bounds_ && bounds_->finest() <= finest) return;
   const Stopwatch watch;
-  bounds_.emplace(cell_bounds(*spline_, *coefficients_, progress));
+  if (source_) {
+    StreamedBounds streamed = streamed_bounds(*source_, *spline_, config_.prefilter, finest, what_, progress);
+    bounds_.emplace(streamed.scale, std::move(streamed.blocks));
+    skipping_.emplace(device_);
+  } else {
+    bounds_.emplace(cell_bounds(*spline_, *coefficients_, progress));
+  }
   stats.bounds_ms = watch.ms();
 }
 
 SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, const Progress& progress) {
   if (request.skip.structure == "none" || !is_open(request.skip)) return {request.skip, ""};
   prepare_coefficients(stats, progress);
-  prepare_bounds(stats, progress);
-  return skipping_.choose(request.skip, *bounds_, seen_values(request.scene), stats);
+  prepare_bounds(request, stats, progress);
+  return skipping_->choose(request.skip, *bounds_, seen_values(request.scene), stats);
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
@@ -166,7 +188,7 @@ void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stat
 // ---- pictures ----
 
 DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
-  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / kPixelBytes));
+  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / (bricks_ ? kParkedBytes : kPixelBytes)));
   const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / scene.width / kTile * kTile);
   Band band;
   band.rows = int(std::min<std::int64_t>(rows, scene.height));
@@ -174,15 +196,18 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   band.color = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "color");
   band.hit = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "hit");
   if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
+  if (bricks_) band.parked = gpu::create_buffer(device_, bytes / kPixelBytes * kParkedBytes, gpu::BufferUse::storage, "parked");
   band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * kRayBytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
   return band;
 }
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
-  gpu::Resources all = skipping_.resources();
+  gpu::Resources all = skipping_->resources();
   all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
                          {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
-  for (std::size_t i = 0; i < coefficient_buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), coefficient_buffers_[i]);
+  if (bricks_) all.emplace_back("Parked", band.parked);
+  const gpu::Resources coefficients = bricks_ ? bricks_->resources() : texels_.resources();
+  all.insert(all.end(), coefficients.begin(), coefficients.end());
   // What the variant leaves out is not bound.
   std::erase_if(all, [&](const auto& resource) {
     return std::none_of(pipeline.reflection.bindings.begin(), pipeline.reflection.bindings.end(),
@@ -193,7 +218,8 @@ gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Ba
 
 TraceParameters DeviceRenderer::make_parameters(const Scene& scene) {
   TraceParameters p = trace_parameters(scene, *coefficients_);
-  skipping_.set_parameters(p);
+  skipping_->set_parameters(p);
+  if (bricks_) bricks_->set_parameters(p);
   p.bricks.w = int(rays_per_lane());
   parameters_ = gpu::create_buffer(device_, sizeof p, gpu::BufferUse::uniform, "parameters");
   return p;
@@ -211,15 +237,20 @@ std::uint32_t DeviceRenderer::rays_per_lane() const {
   return gpu::info(device_).type == "CPU" ? kRaysPerLane : 1;
 }
 
-double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, int width, int rows) {
+double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress) {
   std::uint32_t rays = 0;
   gpu::upload(device_, band.rays, std::as_bytes(std::span(&rays, 1)));
   const gpu::Pipeline& enter = kernels.front().pipeline;
-  double ms = gpu::dispatch(device_, enter, resources(enter, band), {}, (width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+  double ms = gpu::dispatch(device_, enter, resources(enter, band), {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
   gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
   for (const KernelPass& pass : std::span(kernels).subspan(1)) {
     const std::uint32_t group = kTraceGroup * (pass.pass == Pass::seek ? rays_per_lane() : 1);
-    ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+    // Until no ray waits for a brick.
+    const bool waits = bricks_ && pass.pass != Pass::traverse;
+    do {
+      if (waits) bricks_->clear_requests();
+      ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+    } while (waits && bricks_->serve(lattice_eye(scene), progress));
   }
   return ms;
 }
@@ -231,7 +262,7 @@ double DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& b
     const int rows = std::min(band.rows, scene.height - row);
     p.picture = ivec4(scene.width, scene.height, row, rows);
     gpu::upload(device_, parameters_, std::as_bytes(std::span(&p, 1)));
-    ms += trace_band(kernels, band, scene.width, rows);
+    ms += trace_band(kernels, band, scene, rows, [&](double) { report(progress, double(row) / scene.height); });
     if (frame) read_band(band, row, rows, *frame);
     report(progress, double(row + rows) / scene.height);
   }
@@ -277,12 +308,15 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
 }
 
 void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
-  std::uint64_t coefficients = 0;
-  for (const gpu::Buffer& b : coefficient_buffers_) coefficients += b.bytes;
   stats.device = gpu::info(device_).name;
-  stats.device_bytes = {{"coefficients", coefficients}};
-  skipping_.describe(stats);
-  stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes);
+  stats.device_bytes.clear();
+  if (bricks_) {
+    bricks_->describe(stats);
+  } else {
+    stats.device_bytes.emplace_back("coefficients", texels_.bytes());
+  }
+  skipping_->describe(stats);
+  stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes + band.parked.bytes);
   if (transfer_table_.bytes > 0) stats.device_bytes.emplace_back("transfer table", transfer_table_.bytes);
   stats.device_bytes.emplace_back("parameters", parameters_.bytes + isosurfaces_.bytes);
 }
@@ -294,6 +328,7 @@ glm::dvec3 DeviceRenderer::lattice_eye(const Scene& scene) const {
 
 Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);
+  check_bricks(request.scene);
   Request visible = request;
   visible.scene.isosurfaces = visible_surfaces(request.scene);
   if (visible.scene.isosurfaces.empty() && !visible.scene.volume) throw InputError("--opacity: every surface has opacity 0; expected one that can be seen");
@@ -301,9 +336,9 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   stats = RenderStats{};
   prepare_coefficients(stats, progress);
   const bool skips = request.skip.structure != "none";
-  if (skips) prepare_bounds(stats, progress);
+  if (skips) prepare_bounds(request, stats, progress);
   visible.skip = complete(visible, stats, progress).config;
-  skipping_.prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
+  skipping_->prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);
   upload_transfer_table(visible.scene, stats);
   const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "gpu/gpu.h"
+#include "render/coefficient_texels.h"
+#include "render/device_bricks.h"
 #include "render/device_skipping.h"
 #include "render/kernel_cache.h"
 #include "render/renderer.h"
@@ -23,6 +25,9 @@ struct DeviceLimits {
 class DeviceRenderer final : public Renderer {
  public:
   DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits = {});
+  /// For samples that are read brick by brick; config.pool_bytes is set. `what` names them in errors.
+  DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared_ptr<const SampleSource> source, const std::string& what, const Config& config,
+                 const DeviceLimits& limits = {});
 
   Frame render(const Request& request, RenderStats& stats, const Progress& progress = {}) override;
   std::vector<Feature> explain(const Request& request) override;
@@ -30,17 +35,14 @@ class DeviceRenderer final : public Renderer {
   KernelVariant variant(const Request& request) const;
 
  private:
-  struct CoefficientLayout {
-    int buffers = 1, shift = 0;
-  };
   /// What the picture is written to: rows that fit the device's limits at a time.
   struct Band {
     int rows = 0;
-    gpu::Buffer color, hit, cost, rays;
+    gpu::Buffer color, hit, cost, rays, parked;
   };
 
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
-  void prepare_bounds(RenderStats& stats, const Progress& progress);
+  void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
@@ -52,12 +54,15 @@ class DeviceRenderer final : public Renderer {
   /// Runs the kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   std::uint32_t rays_per_lane() const;
-  double trace_band(const Kernels& kernels, const Band& band, int width, int rows);
+  double trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   void count_costs(Request request, RenderStats& stats, const Progress& progress);
   static Frame empty_frame(const Scene& scene);
   void describe(const Band& band, RenderStats& stats) const;
-  CoefficientLayout coefficient_layout() const;
+  /// Throws InputError for more cells than kernels can number.
+  void check_cells() const;
+  TexelLayout coefficient_layout() const;
+  void check_bricks(const Scene& scene) const;
   glm::dvec3 lattice_eye(const Scene& scene) const;
 
   std::shared_ptr<KernelCache> kernels_;
@@ -66,11 +71,14 @@ class DeviceRenderer final : public Renderer {
   DeviceLimits limits_;
   std::unique_ptr<Spline> spline_;
   Volume volume_;  ///< until the coefficients are made
-  std::optional<Coefficients<float>> coefficients_;
-  std::vector<gpu::Buffer> coefficient_buffers_;
+  std::optional<Coefficients<float>> coefficients_;  ///< without data where there is a source
+  CoefficientTexels texels_;
+  std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
+  std::string what_;                            ///< the source's name
+  std::optional<DeviceBricks> bricks_;
 
   std::optional<VolumeBounds> bounds_;
-  DeviceSkipping skipping_;
+  std::optional<DeviceSkipping> skipping_;
   gpu::Buffer isosurfaces_, transfer_table_, parameters_;
 };
 

@@ -3,16 +3,27 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "accel/skip_config.h"
 #include "lattice/progress.h"
+#include "lattice/sample_source.h"
 #include "render/scene.h"
 #include "spline/spline.h"
 
 namespace quincunx {
+
+/// The brick pool of a renderer, since it was made.
+struct BrickStats {
+  int edge = 0;  ///< cells; 0: there is no pool
+  std::uint64_t count = 0, slots = 0, resident = 0;
+  std::uint64_t loads = 0, evictions = 0, loaded_bytes = 0;
+  std::uint64_t rounds = 0;  ///< of loading what rays waited for
+  double load_ms = 0.0;
+};
 
 /// What one call of Renderer::render cost. Milliseconds; 0 for what did not have to be done (again).
 struct RenderStats {
@@ -30,6 +41,7 @@ struct RenderStats {
   std::uint64_t leaves = 0, nodes = 0;            ///< see StructureReport
   int depth = 0;
   std::uint64_t rays = 0, hits = 0;
+  BrickStats bricks;
   std::uint64_t evaluations = 0, steps = 0, intervals = 0;  ///< of all rays; only where asked for
 };
 
@@ -45,6 +57,8 @@ class Renderer {
   struct Config {
     std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
     Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+    std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them
+    int brick = 32;           ///< edge of a brick in cells, a power of two, 4..256
     bool validation = false;  ///< Vulkan validation layers; any message throws
   };
   struct Request {
@@ -67,5 +81,10 @@ class Renderer {
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
 /// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples, or a device that is not there.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
+
+/// The same for samples that stay where they are and are read brick by brick into a pool of config.pool_bytes, which is set. `what` names
+/// them in errors. Not for "cpu". Throws InputError also for what a pool of bricks cannot show: marching, central differences.
+std::unique_ptr<Renderer> make_renderer(const std::string& device, std::shared_ptr<const SampleSource> source, const std::string& what,
+                                        const Renderer::Config& config);
 
 }  // namespace quincunx

@@ -55,4 +55,8 @@ float coefficient(int number) {
 
 // Number of the coefficient (coset 0; 0,0,0), as an evaluation in `cell` counts: (coset; i,j,k) has the number
 // origin + coset strides.z + i + j strides.x + k strides.y.
+#ifdef BRICKS
+#include "bricks.glsl"
+#else
 int coefficient_origin(ivec3 cell) { return parameters.strides.w; }
+#endif

@@ -23,6 +23,9 @@ struct Caster {
   float entry, len;  // of the current cell: where the ray enters, how long it stays
   float done;        // how far of it has been looked at
   float last_hit;    // where the ray last crossed a surface; before everything until then
+#ifdef BRICKS
+  bool parked;       // the current cell waits for its brick
+#endif
 #ifdef COST
   uint evaluations;
 #endif
@@ -39,6 +42,9 @@ Caster begin_caster(Ray ray, Walk walk) {
   caster.len = 0.0;
   caster.done = 0.0;
   caster.last_hit = -1e30;
+#ifdef BRICKS
+  caster.parked = false;
+#endif
 #ifdef COST
   caster.evaluations = 0u;
 #endif
@@ -146,6 +152,14 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     enter_cell(ray, caster, seeking && caster.need_cell, seekers / 4u);
     seeking = seeking && caster.live;
     bool looking = seeking && !caster.need_cell;
+#ifdef BRICKS
+    if (looking && !brick_resident(caster.cell)) {
+      request_brick(caster.cell);
+      caster.parked = true;
+    }
+    looking = looking && !caster.parked;
+    seeking = seeking && !caster.parked;
+#endif
     SplineCell cell = spline_cell(caster.cell, ray.centre);
     vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
     vec3 along = cell.sign * ray.d;

@@ -20,6 +20,9 @@
 #ifdef VOLUME
 #include "volume.glsl"
 #endif
+#ifdef BRICKS
+#include "park.glsl"
+#endif
 
 void main() {
   uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
@@ -34,22 +37,73 @@ void main() {
   VolumeRay volume = begin_volume(ray, pending.pixel, begin_walk(ray, pending.t, pending.until));
 #endif
 #ifdef COMPOSITE
+  bool have_root = false;
+#ifdef BRICKS
+  bool parked_ray = false;
+  uint state = ray_list[mine ? number : 0u].w;
+  mine = mine && state != RAY_DONE;
+  if (mine && state == RAY_PARKED) {
+    seen = parked_seen(number);
+    have_root = take_up_caster(number, ray, caster, root);
+#ifdef VOLUME
+    take_up_volume(number, volume);
+#endif
+  }
+#endif
+  // From root to root: what is in front of it, then the root itself.
   bool seeking = mine;
   do {
-    bool hit = next_hit(ray, caster, seeking, false, root);
-#ifdef VOLUME
-    // What is in front of the hit, or up to the ray's end where no further one is.
-    integrate(ray, volume, seeking && (hit || !caster.live), hit ? root.t : ray.end, seen);
-    hit = hit && !opaque(seen);
+    Root next;
+    bool found = next_hit(ray, caster, seeking && !have_root, false, next);
+    if (found) root = next;
+    have_root = have_root || found;
+#ifdef BRICKS
+    parked_ray = parked_ray || (!have_root && caster.parked);
 #endif
-    if (hit) see_root(seen, ray, exact, root);
-    seeking = seeking && caster.live && seen.transmittance > 0.0;
 #ifdef VOLUME
-    seeking = seeking && !opaque(seen);
-    // Behind the last hit.
-    integrate(ray, volume, mine && !seeking && !opaque(seen) && seen.transmittance > 0.0, ray.end, seen);
+    bool known = seeking && (have_root || !caster.live);
+#ifdef BRICKS
+    known = known && !parked_ray;
+#endif
+    integrate(ray, volume, known, have_root ? root.t : ray.end, seen);
+    bool reached = have_root;
+#ifdef BRICKS
+    parked_ray = parked_ray || volume.parked;
+    reached = reached && !parked_ray;
+#endif
+    bool covered = opaque(seen);
+#else
+    bool reached = have_root;
+    const bool covered = false;
+#endif
+#ifdef BRICKS
+    if (seeking && reached && !covered && !brick_resident(root.cell)) {
+      request_brick(root.cell);
+      parked_ray = true;
+      reached = false;
+    }
+#endif
+    if (seeking && reached && !covered) see_root(seen, ray, exact, root);
+    bool more = caster.live || (have_root && !reached);
+#ifdef VOLUME
+    more = more || reached;  // the volume behind it
+#endif
+    have_root = have_root && !reached;
+    seeking = seeking && more && !covered && seen.transmittance > 0.0;
+#ifdef BRICKS
+    seeking = seeking && !parked_ray;
 #endif
   } while (subgroupAny(seeking));
+#ifdef BRICKS
+  if (mine) ray_list[number].w = parked_ray ? RAY_PARKED : RAY_DONE;
+  if (mine && parked_ray) {
+    park_seen(number, seen);
+    park_caster(number, caster, have_root, root);
+#ifdef VOLUME
+    park_volume(number, volume);
+#endif
+  }
+#endif
 #else
   if (next_hit(ray, caster, mine, false, root)) see_root(seen, ray, exact, root);
 #endif

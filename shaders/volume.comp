@@ -13,6 +13,9 @@
 #include "seen.glsl"
 #include "rays.glsl"
 #include "volume.glsl"
+#ifdef BRICKS
+#include "park.glsl"
+#endif
 
 void main() {
   uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
@@ -21,7 +24,22 @@ void main() {
   Ray ray = make_ray(pending.pixel);
   VolumeRay volume = begin_volume(ray, pending.pixel, begin_walk(ray, pending.t, pending.until));
   Seen seen = nothing_seen();
+#ifdef BRICKS
+  uint state = ray_list[mine ? number : 0u].w;
+  mine = mine && state != RAY_DONE;
+  if (mine && state == RAY_PARKED) {
+    seen = parked_seen(number);
+    take_up_volume(number, volume);
+  }
+#endif
   integrate(ray, volume, mine, ray.end, seen);
+#ifdef BRICKS
+  if (mine) ray_list[number].w = volume.parked ? RAY_PARKED : RAY_DONE;
+  if (mine && volume.parked) {
+    park_seen(number, seen);
+    park_volume(number, volume);
+  }
+#endif
   if (mine) {
     write_pixel(pending.pixel, over_background(seen), seen.first);
 #ifdef COST

@@ -23,6 +23,9 @@ struct VolumeRay {
   int parts;             // of stretch k: 0 not known yet, else 1, 2, 4 or 8
   int part;              // the next of them
 #endif
+#ifdef BRICKS
+  bool parked;           // the next place waits for its brick
+#endif
 #ifdef COST
   uint evaluations;
 #endif
@@ -93,6 +96,9 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
 #ifdef ADAPTIVE
   volume.parts = 0;
   volume.part = 0;
+#endif
+#ifdef BRICKS
+  volume.parked = false;
 #endif
 #ifdef COST
   volume.evaluations = 0u;
@@ -242,7 +248,19 @@ void see_stretch(inout Seen seen, VolumeRay volume, vec4 stretch, float t, bool 
 #endif
 }
 
-// Where `wanted`, integrates until `end`, or until nothing more can be seen.
+// Where in what is left of a stretch the spline is looked at next.
+float look_at(VolumeRay volume, Stretch s) {
+#if defined(PRE_INTEGRATED)
+  return volume.have ? s.last : s.first;
+#elif defined(ADAPTIVE)
+  float middle = volume.parts > 1 ? (float(volume.part) + 0.5) / float(volume.parts) : 0.5;
+  return s.first + middle * (s.last - s.first);
+#else
+  return 0.5 * (s.first + s.last);
+#endif
+}
+
+// Where `wanted`, integrates until `end`, or until nothing more can be seen, or (`parked`) until a brick is missing.
 void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Seen seen) {
   bool busy = wanted && !opaque(seen) && stretches_left(ray, volume, end);
   uint lanes = subgroupBallotBitCount(subgroupBallot(busy));
@@ -253,8 +271,17 @@ void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Se
     bool found = find_stretch(ray, volume, end, busy, lanes / 4u);
 #endif
     Stretch s = stretch_left(ray, volume, end);
+    float t = look_at(volume, s);
+#ifdef BRICKS
+    ivec3 cell = cell_at(ray, t);
+    if (found && !brick_resident(cell)) {
+      request_brick(cell);
+      volume.parked = true;
+    }
+    found = found && !volume.parked;
+#endif
+    Look at = look(ray, volume, t);
 #if defined(PRE_INTEGRATED)
-    Look at = look(ray, volume, volume.have ? s.last : s.first);
     vec4 stretch = pre_integrated(volume.front, at.place);
     bool here = found && volume.have;
     bool ended = here;
@@ -262,17 +289,14 @@ void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Se
     volume.front = found ? at.place : volume.front;
 #elif defined(ADAPTIVE)
     bool parted = volume.parts > 1;
-    float middle = parted ? (float(volume.part) + 0.5) / float(volume.parts) : 0.5;
-    Look at = look(ray, volume, s.first + middle * (s.last - s.first));
     vec4 stretch = part_of(classified(at.place), volume.parts);
     float finest = parameters.modulation.w;  // entries a part may go along
     int parts = at.change <= finest ? 1 : at.change <= 2.0 * finest ? 2 : at.change <= 4.0 * finest ? 4 : 8;
     bool here = found && (parted || parts == 1);
     bool ended = here && (!parted || volume.part + 1 == volume.parts);
-    volume.part = found && parted ? volume.part + 1 : 0;
+    volume.part = found && parted ? volume.part + 1 : found ? 0 : volume.part;
     volume.parts = ended ? 0 : found && !parted ? parts : volume.parts;
 #else
-    Look at = look(ray, volume, 0.5 * (s.first + s.last));
     vec4 stretch = classified(at.place);
     bool here = found;
     bool ended = found;
@@ -286,6 +310,9 @@ void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Se
     volume.reached = ended && s.cut ? s.last : volume.reached;
     volume.k += ended && !s.cut ? 1.0 : 0.0;
     busy = busy && !opaque(seen) && stretches_left(ray, volume, end);
+#ifdef BRICKS
+    busy = busy && !volume.parked;
+#endif
     lanes = subgroupBallotBitCount(subgroupBallot(busy));
   } while (lanes > 0u);
 }

@@ -24,6 +24,7 @@
 //      432  sampling                                                      of a volume: length of a stretch (world), 0, least transmittance, seed (bits)
 //      448  transfer                                                      low (value), entries per value, last entry, 0
 //      464  modulation                                                    low (gradient magnitude), 1/(high-low), gradients' scale, finest (entries)
+//      480  pages                                                         bricks of the pool per axis; .w: log2 of their edge in cells
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -51,9 +52,10 @@ layout(std140, binding = 0) uniform TraceParameters {
   vec4 sampling;
   vec4 transfer;
   vec4 modulation;
+  ivec4 pages;
 #ifdef __cplusplus
 };
-static_assert(sizeof(TraceParameters) == 480);
+static_assert(sizeof(TraceParameters) == 496);
 }  // namespace quincunx
 #else
 }

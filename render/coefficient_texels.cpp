@@ -1,0 +1,60 @@
+#include "render/coefficient_texels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "lattice/error.h"
+
+namespace quincunx {
+namespace {
+
+constexpr std::uint64_t kMostBuffers = 8;  // bindings of coefficients.glsl
+
+}  // namespace
+
+TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, const std::string& device) {
+  if (numbers > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
+    throw InputError(fmt::format("volume: {} coefficients with their border; expected at most 2^31 - 1, or a pool of bricks (--pool)", numbers));
+  if (numbers <= texel_elements) return {};
+  const int shift = std::bit_width(texel_elements) - 1;
+  const std::uint64_t buffers = (numbers + (std::uint64_t(1) << shift) - 1) >> shift;
+  if (buffers > kMostBuffers)
+    throw gpu::DeviceError(fmt::format("{}: {} coefficients need {} texel buffers of 2^{} elements; expected at most {}, or a pool of bricks (--pool)",
+                                       device, numbers, buffers, shift, kMostBuffers));
+  return {int(buffers), shift};
+}
+
+CoefficientTexels::CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label)
+    : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)) {
+  // Kernels read every buffer at every number: all are of one length.
+  each_ = layout_.buffers == 1 ? std::int64_t(numbers) : std::int64_t(1) << layout_.shift;
+  for (int i = 0; i < layout_.buffers; ++i)
+    buffers_.push_back(gpu::create_buffer(device, std::uint64_t(each_) * sizeof(float), gpu::BufferUse::texel, label, VK_FORMAT_R32_SFLOAT));
+}
+
+void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const float> numbers) const {
+  while (!numbers.empty()) {
+    const std::int64_t at = first % each_;
+    const std::size_t count = std::size_t(std::min<std::int64_t>(std::int64_t(numbers.size()), each_ - at));
+    gpu::upload(device, buffers_[std::size_t(first / each_)], std::as_bytes(numbers.first(count)), std::uint64_t(at) * sizeof(float));
+    numbers = numbers.subspan(count);
+    first += std::int64_t(count);
+  }
+}
+
+gpu::Resources CoefficientTexels::resources() const {
+  gpu::Resources all;
+  for (std::size_t i = 0; i < buffers_.size(); ++i) all.emplace_back("coefficients" + std::to_string(i), buffers_[i]);
+  return all;
+}
+
+std::uint64_t CoefficientTexels::bytes() const {
+  std::uint64_t sum = 0;
+  for (const gpu::Buffer& buffer : buffers_) sum += buffer.bytes;
+  return sum;
+}
+
+}  // namespace quincunx

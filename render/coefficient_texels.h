@@ -1,0 +1,39 @@
+// Coefficients on the device: one texel buffer, or several where the device limits their elements (shaders/coefficients.glsl).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu.h"
+
+namespace quincunx {
+
+/// How so many numbers lie in texel buffers: one, or several of 2^shift elements.
+struct TexelLayout {
+  int buffers = 1, shift = 0;
+};
+/// Throws InputError where there are more than 2^31 - 1, DeviceError, naming `device`, where they do not fit the buffers that kernels read.
+TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, const std::string& device);
+
+class CoefficientTexels {
+ public:
+  CoefficientTexels() = default;
+  /// Room for so many 32-bit floats. Throws as texel_layout, and DeviceError where memory is short.
+  CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label);
+
+  const TexelLayout& layout() const { return layout_; }
+  /// From number `first` on.
+  void upload(gpu::Device& device, std::int64_t first, std::span<const float> numbers) const;
+  /// "coefficients0", ...
+  gpu::Resources resources() const;
+  std::uint64_t bytes() const;
+
+ private:
+  TexelLayout layout_;
+  std::int64_t each_ = 0;  ///< numbers a buffer
+  std::vector<gpu::Buffer> buffers_;
+};
+
+}  // namespace quincunx
