@@ -356,7 +356,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   describe(band, stats);
   if (request.count_costs) count_costs(visible, stats, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;
-  stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
+  stats.hits = count_hits(frame);
   if (config_.validation && !gpu::validation_messages(device_).empty())
     throw std::runtime_error("validation: " + gpu::validation_messages(device_).front());
   return frame;

@@ -53,7 +53,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   stats.skip = request.skip;
   if (!request.scene.cost) frame.cost.clear();
   stats.rays = std::uint64_t(frame.width) * frame.height;
-  stats.hits = std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float z) { return std::isfinite(z); }));
+  stats.hits = count_hits(frame);
   return frame;
 }
 

@@ -85,6 +85,12 @@ CostSums cost_sums(const Frame& frame) {
   return {std::uint64_t(sums[0]), std::uint64_t(sums[1]), std::uint64_t(sums[2])};
 }
 
+std::uint64_t count_hits(const Frame& frame) {
+  std::uint64_t hits = 0;
+  for (std::size_t p = 0; p < frame.depth.size(); ++p) hits += std::isfinite(frame.depth[p]) || frame.color[4 * p + 3] > 0.0f;
+  return hits;
+}
+
 void check_scene(const Scene& scene) {
   check_isosurfaces(scene);
   if (scene.volume) check_volume_look(*scene.volume);

@@ -91,4 +91,7 @@ struct CostSums {
 };
 CostSums cost_sums(const Frame& frame);
 
+/// The number of pixels whose ray met a surface or opacity.
+std::uint64_t count_hits(const Frame& frame);
+
 }  // namespace quincunx
