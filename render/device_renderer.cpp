@@ -156,11 +156,19 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
   stats.bounds_ms = watch.ms();
 }
 
+void DeviceRenderer::check_samples(const Progress& progress) {
+  if (!source_ || bounds_ || samples_checked_) return;
+  check_finite(sample_range(*source_, progress), source_->header(), what_);
+  samples_checked_ = true;
+}
+
 SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, const Progress& progress) {
-  if (request.skip.structure == "none" || !is_open(request.skip)) return {request.skip, ""};
+  SkipConfig wanted = request.skip;
+  wanted.cell_test = wanted.cell_test && !source_;  // of a volume that stays in its file, only blocks are bounded
+  if (wanted.structure == "none" || !is_open(wanted)) return {wanted, ""};
   prepare_coefficients(stats, progress);
   prepare_bounds(request, stats, progress);
-  return skipping_->choose(request.skip, *bounds_, seen_values(request.scene), stats);
+  return skipping_->choose(wanted, *bounds_, seen_values(request.scene), stats);
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
@@ -336,7 +344,11 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   stats = RenderStats{};
   prepare_coefficients(stats, progress);
   const bool skips = request.skip.structure != "none";
-  if (skips) prepare_bounds(request, stats, progress);
+  if (skips) {
+    prepare_bounds(request, stats, progress);
+  } else {
+    check_samples(progress);
+  }
   visible.skip = complete(visible, stats, progress).config;
   skipping_->prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);

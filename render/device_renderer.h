@@ -43,6 +43,8 @@ class DeviceRenderer final : public Renderer {
 
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
+  /// Where nothing is skipped: throws InputError for samples of the source that are not finite, as prepare_bounds does.
+  void check_samples(const Progress& progress);
   /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
@@ -75,6 +77,7 @@ class DeviceRenderer final : public Renderer {
   CoefficientTexels texels_;
   std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
   std::string what_;                            ///< the source's name
+  bool samples_checked_ = false;                ///< those of the source are finite
   std::optional<DeviceBricks> bricks_;
 
   std::optional<VolumeBounds> bounds_;

@@ -65,7 +65,6 @@ SkipChoice DeviceSkipping::choose(const SkipConfig& wanted, VolumeBounds& bounds
   const int block = std::max(kChoiceBlock, bounds.finest());
   SkipChoice choice = choose_skip(wanted, looks ? classified(bounds, block, stats) : Classification{}, {.cpu = gpu::info(device_).type == "CPU"});
   choice.config.block = std::max(choice.config.block, wanted.block == 0 ? bounds.finest() : 1);
-  choice.config.cell_test = wanted.cell_test && bounds.cells() != nullptr;
   return choice;
 }
 

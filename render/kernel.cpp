@@ -31,7 +31,7 @@ constexpr Part kParts[] = {
     {"several isovalues", nullptr, "count_isovalues", [](const KernelVariant& v) { return shows_surfaces(v) && v.many_isovalues; },
      "more than one isovalue", "one isovalue at most"},
     {"compositing", "COMPOSITE", "composite", [](const KernelVariant& v) { return shows_surfaces(v) && v.composite; },
-     "a surface is not opaque, or a volume is in front of it", "every surface is opaque: the first hit ends the ray"},
+     "a surface is not opaque, a volume is in front of it, or rays wait for bricks", "every surface is opaque: the first hit ends the ray"},
     {"surfaces", "SURFACES", nullptr, shows_surfaces, "--iso", "no --iso"},
     {"direct volume rendering", "VOLUME", "integrate", shows_volume, "--tf", "no --tf"},
     {"pre-integrated classification", "PRE_INTEGRATED", "pre_integrated", [](const KernelVariant& v) { return shows_volume(v) && v.pre_integrated; },
@@ -77,6 +77,7 @@ gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
   for (const Part& part : kParts)
     if (part.define && part.wanted(variant)) source.defines.emplace_back(part.define, "1");
   source.defines.emplace_back("ISOVALUES", variant.many_isovalues ? "2" : "1");
+  source.defines.emplace_back("RANGES", variant.many_isovalues || variant.volume ? "2" : "1");
   source.defines.emplace_back("COEFFICIENT_BUFFERS", std::to_string(variant.coefficient_buffers));
   source.defines.emplace_back("COEFFICIENT_SHIFT", std::to_string(variant.coefficient_shift));
   return source;

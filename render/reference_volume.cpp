@@ -57,7 +57,13 @@ ReferenceVolume::Stretch ReferenceVolume::lit(Stretch stretch, const glm::dvec3&
   if (volume_.shade) stretch.color = headlight(stretch.color, ambient_, facing_normal(world, direction), direction);
   if (!volume_.modulated()) return stretch;
   const double left = std::clamp((glm::length(world) - volume_.modulate_from) / (volume_.modulate_to - volume_.modulate_from), 0.0, 1.0);
-  return {left * stretch.color, left * stretch.opacity};
+  return share(stretch, left);
+}
+
+ReferenceVolume::Stretch ReferenceVolume::share(const Stretch& stretch, double part) {
+  if (stretch.opacity == 0.0) return {};
+  const double opacity = -std::expm1(part * std::log1p(-std::min(stretch.opacity, 1.0 - 0x1p-53)));
+  return {opacity / stretch.opacity * stretch.color, opacity};
 }
 
 ReferenceVolume::Stretch ReferenceVolume::sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length, RayCost& cost,
@@ -97,10 +103,11 @@ void ReferenceVolume::integrate(const LatticeRay& ray, const glm::dvec3& directi
     const bool cut = begin_of(march.k + 1.0) > end;
     const double last = cut ? end : begin_of(march.k + 1.0);
     const double part = std::clamp((last - first) / dt, 0.0, 1.0);
-    const Stretch met = stretch(ray, direction, first, last, cost);
+    Stretch met = stretch(ray, direction, first, last, cost);
+    if (part < 1.0) met = share(met, part);
     ++cost.steps;
-    seen.color += seen.transmittance * part * met.color;
-    seen.transmittance *= 1.0 - part * met.opacity;
+    seen.color += seen.transmittance * met.color;
+    seen.transmittance *= 1.0 - met.opacity;
     if (!march.half && seen.transmittance <= 0.5) march.half = last;
     if (cut) {
       march.reached = last;

@@ -44,6 +44,8 @@ class ReferenceVolume {
   /// From s = first to last.
   Stretch stretch(const LatticeRay& ray, const glm::dvec3& direction, double first, double last, RayCost& cost) const;
   Stretch sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length, RayCost& cost, double* change = nullptr) const;
+  /// A part of a stretch's length, or of its extinction.
+  static Stretch share(const Stretch& stretch, double part);
   /// Light and modulation by a gradient (lattice).
   Stretch lit(Stretch stretch, const glm::dvec3& gradient, const glm::dvec3& direction) const;
   glm::dvec3 place(const LatticeRay& ray, double s) const;

@@ -31,8 +31,8 @@ struct DirectVolume {
   bool adaptive = false;     ///< stretches are parted into up to 8 where the value goes along more than `finest`; of Classify::post
   double finest = 1.0 / 64;  ///< part of the function's range of values
   bool shade = true;         ///< a light at the eye, by the gradient
-  double modulate_from = 0.0, modulate_to = 0.0;  ///< gradient magnitudes, data units per world unit, between which opacities grow from
-                                                  ///< 0 to their own; equal: not modulated
+  double modulate_from = 0.0, modulate_to = 0.0;  ///< gradient magnitudes, data units per world unit, between which extinctions, -ln(1 -
+                                                  ///< opacity), grow from 0 to their own; equal: not modulated
   double termination = 1.0 / 512;  ///< a ray ends where less than this is let through
   std::optional<std::uint32_t> jitter;  ///< seed: shifts the stretches of each pixel by a random part of one
 

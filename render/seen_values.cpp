@@ -1,7 +1,7 @@
 #include "render/seen_values.h"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "accel/opaque_ranges.h"
 #include "render/transfer_table.h"
@@ -11,29 +11,35 @@ namespace {
 
 constexpr std::size_t kMostRanges = 254;
 
-/// Of a table of entries that single samples look up.
-std::vector<float> post_mask(const DirectVolume& volume) {
+constexpr double kMargin = 1.0 / 64.0;  // entries; more than a look-up in floats is off
+constexpr double kLargest = std::numeric_limits<double>::max();
+
+/// Of a table of entries that single samples look up. An entry counts however thin the volume is: as if stretches were endless.
+std::vector<ValueRange> post_values(const DirectVolume& volume) {
+  TransferFunction function = volume.function;
+  function.unit = 1.0;
+  const TransferTable table = bake(function, volume.table_entries(), kLargest, 1.0);
   std::vector<float> alpha;
-  for (const glm::vec4& entry : bake(volume.function, volume.table_entries(), 1.0, 1.0).entries) alpha.push_back(entry.a);
-  return alpha;
+  for (const glm::vec4& entry : table.entries) alpha.push_back(entry.a);
+  return opaque_ranges(alpha, table.low, table.high);
 }
 
-/// Of a pre-integrated table: the entries that bound, or lie in, a stretch of values with opacity. A cell between two entries is looked up
-/// together with its neighbours, so that a value matters from the entry before such a stretch to the one after.
-std::vector<float> pre_integrated_mask(const DirectVolume& volume) {
+/// Of a pre-integrated table: from the entry before a stretch of values with opacity to the one after. Between two entries that both lie
+/// before it, or both behind, no look-up meets it.
+std::vector<ValueRange> pre_integrated_values(const DirectVolume& volume) {
   const auto& points = volume.function.opacities;
   const double low = float_below(volume.function.low()), high = float_above(volume.function.high());
-  const int last = volume.table_entries() - 1;
-  const auto place = [&](double value) { return (value - low) / (high - low) * last; };
-  std::vector<float> mask(std::size_t(last) + 1);
-  const auto mark = [&](double from, double to) {
-    for (int n = std::max(int(std::floor(from)), 0); n <= std::min(int(std::ceil(to)), last); ++n) mask[std::size_t(n)] = 1.0f;
+  const double interval = (high - low) / (volume.table_entries() - 1);
+  std::vector<ValueRange> ranges;
+  const auto add = [&](double from, double to) {
+    ranges.push_back({from == -kLargest ? from : low + interval * (std::floor((from - low) / interval) - kMargin),
+                      to == kLargest ? to : low + interval * (std::ceil((to - low) / interval) + kMargin)});
   };
-  if (points.front().opacity > 0.0) mark(0.0, place(points.front().value));
+  if (points.front().opacity > 0.0) add(-kLargest, points.front().value);
   for (std::size_t n = 1; n < points.size(); ++n)
-    if (points[n - 1].opacity > 0.0 || points[n].opacity > 0.0) mark(place(points[n - 1].value), place(points[n].value));
-  if (points.back().opacity > 0.0) mark(place(points.back().value), last);
-  return mask;
+    if (points[n - 1].opacity > 0.0 || points[n].opacity > 0.0) add(points[n - 1].value, points[n].value);
+  if (points.back().opacity > 0.0) add(points.back().value, kLargest);
+  return ranges;
 }
 
 }  // namespace
@@ -42,8 +48,7 @@ std::vector<ValueRange> seen_values(const Scene& scene) {
   std::vector<ValueRange> ranges = ranges_of(isovalues_of(visible_surfaces(scene)));
   if (scene.volume) {
     const DirectVolume& volume = *scene.volume;
-    const std::vector<float> mask = volume.classify == Classify::post ? post_mask(volume) : pre_integrated_mask(volume);
-    const std::vector<ValueRange> opaque = opaque_ranges(mask, float_below(volume.function.low()), float_above(volume.function.high()));
+    const std::vector<ValueRange> opaque = volume.classify == Classify::post ? post_values(volume) : pre_integrated_values(volume);
     ranges.insert(ranges.end(), opaque.begin(), opaque.end());
   }
   return joined(merged(std::move(ranges)), kMostRanges);

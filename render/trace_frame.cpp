@@ -1,5 +1,7 @@
 #include "render/trace_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,6 +14,8 @@ namespace {
 
 /// Nearer than this many radii of the domain's bounding sphere, rays start at the eye itself.
 constexpr double kNear = 1.5;
+/// Stretches that a kernel can count along a ray, in floats.
+constexpr double kMostStretches = 1 << 23;
 
 float high(double x) { return float(x); }
 float low(double x) { return float(x - double(float(x))); }
@@ -32,15 +36,27 @@ glm::dmat3 inverse_axes(const World& world) {
   return inverse;
 }
 
-/// How far along the view (world units) rays start: at the plane through the centre, or at an eye that is near or past it.
-double start_plane(const Camera& camera, const glm::dvec3& forward, const World& world, const glm::dvec3& centre) {
-  const glm::dvec3 to_centre = world.to_world(centre) - camera.eye;
+/// Half the longest diagonal of the domain, world units.
+double domain_radius(const World& world, const glm::dvec3& centre) {
   double radius = 0.0;
   for (int i = 0; i < 4; ++i) {  // the four diagonals
     const glm::dvec3 corner(centre.x, i & 1 ? -centre.y : centre.y, i & 2 ? -centre.z : centre.z);
     radius = std::max(radius, glm::length(world.axes * corner));
   }
+  return radius;
+}
+
+/// How far along the view (world units) rays start: at the plane through the centre, or at an eye that is near or past it.
+double start_plane(const Camera& camera, const glm::dvec3& forward, const World& world, const glm::dvec3& centre) {
+  const glm::dvec3 to_centre = world.to_world(centre) - camera.eye;
+  const double radius = domain_radius(world, centre);
   return glm::length(to_centre) < kNear * radius ? 0.0 : std::max(0.0, glm::dot(to_centre, forward));
+}
+
+/// Throws where a ray through a domain of this radius may have more stretches than can be counted.
+void check_stretches(const DirectVolume& volume, double cell, double radius) {
+  const double least = 2.0 * radius / cell / kMostStretches;
+  if (volume.step < least) throw InputError(fmt::format("--step: found {}, expected at least {:.3g} for a volume as large as this", volume.step, 1.01 * least));
 }
 
 /// What a volume's kernels are told but for its table. `scale`: by how much world gradients are more than normal_x.. makes of them.
@@ -87,7 +103,10 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(normal[i][j]));
   normal /= largest;
-  if (scene.volume) store_volume(*scene.volume, cell_length(world), largest, p);
+  if (scene.volume) {
+    check_stretches(*scene.volume, cell_length(world), domain_radius(world, centre));
+    store_volume(*scene.volume, cell_length(world), largest, p);
+  }
   p.normal_x = narrow(normal[0]);
   p.normal_y = narrow(normal[1]);
   p.normal_z = narrow(normal[2]);

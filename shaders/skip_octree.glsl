@@ -10,7 +10,7 @@ struct SkipState {
 SkipState begin_skip() { return SkipState(parameters.structure.x, parameters.structure.y); }
 
 bool octree_touches(uvec2 bounds) {
-#if ISOVALUES == 1
+#if RANGES == 1
   uvec2 window = texelFetch(octreeWindows, 0).rg;
   return bounds.x < window.x && bounds.y >= window.y;
 #else

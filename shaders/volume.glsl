@@ -174,7 +174,7 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
 
 // What the spline is at a point, as the transfer function sees it.
 struct Look {
-  float place;       // in the table
+  float place;       // in the table; pre-integrated, beyond it too
   float light;       // what is left of a colour
   float modulation;  // what is left of an opacity
   float change;      // along a whole stretch, in entries of the table
@@ -223,7 +223,12 @@ Look look(Ray ray, VolumeRay volume, float t) {
 #else
   value = spline_value(cell, u, low);
 #endif
-  seen.place = clamp(value * (parameters.transfer.y / SPLINE_SCALE), 0.0, parameters.transfer.z);
+  seen.place = value * (parameters.transfer.y / SPLINE_SCALE);
+#ifdef PRE_INTEGRATED
+  seen.place = clamp(seen.place, -1e18, 1e18);
+#else
+  seen.place = clamp(seen.place, 0.0, parameters.transfer.z);
+#endif
   return seen;
 }
 
@@ -301,7 +306,7 @@ void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Se
     bool here = found;
     bool ended = found;
 #endif
-    stretch *= s.part * at.modulation;
+    stretch = share_of(stretch, s.part * at.modulation);
     stretch.rgb *= at.light;
     see_stretch(seen, volume, stretch, s.last, here);
 #ifdef COST

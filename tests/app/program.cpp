@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,18 +54,19 @@ Outcome run_and_signal(const Arguments& arguments, int signal, const std::functi
   if (child == 0) execute(arguments, out, err);
 
   int wait_status = 0;
+  rusage usage{};
   bool sent = false;
   for (;;) {
-    const pid_t ended = ::waitpid(child, &wait_status, ready && !sent ? WNOHANG : 0);
+    const pid_t ended = ::wait4(child, &wait_status, ready && !sent ? WNOHANG : 0, &usage);
     if (ended == child) break;
-    if (ended < 0 && errno != EINTR) throw std::runtime_error("waitpid failed");
+    if (ended < 0 && errno != EINTR) throw std::runtime_error("wait4 failed");
     if (ended == 0 && !sent && catches(child, signal) && ready()) {
       sent = true;
       ::kill(child, signal);
     }
     if (ended == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return {WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : -1, read_file(out), read_file(err)};
+  return {WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : -1, read_file(out), read_file(err), std::uint64_t(usage.ru_maxrss) * 1024};
 }
 
 Outcome run(const Arguments& arguments) { return run_and_signal(arguments, 0, {}); }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -18,6 +19,7 @@ using Arguments = std::vector<std::string>;
 struct Outcome {
   int status = -1;  ///< exit status; -1 where a signal ended the program
   std::string out, err;
+  std::uint64_t peak_bytes = 0;  ///< of its memory, the most at any time; not less than this program's own when it was started
 };
 
 /// Runs quincunx with `arguments` to its end.

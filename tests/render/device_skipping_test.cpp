@@ -33,6 +33,7 @@ class EverySetting : public DeviceTest {
     std::string name;
     Volume volume;
     Renderer::Request request;
+    std::string spline = {};
   };
 
   /// Compares every structure with none, block by block, with and without the cell test in turns. Kernels are changed as rarely as
@@ -42,7 +43,9 @@ class EverySetting : public DeviceTest {
     std::vector<Frame> truths;
     RenderStats stats;
     for (const Scenery& s : sceneries) {
-      renderers.push_back(std::make_unique<DeviceRenderer>(test_kernels(), s.volume, Renderer::Config{}));
+      Renderer::Config config;
+      config.spline = s.spline;
+      renderers.push_back(std::make_unique<DeviceRenderer>(test_kernels(), s.volume, config));
       Renderer::Request request = s.request;
       request.skip.structure = "none";
       truths.push_back(renderers.back()->render(request, stats));
@@ -134,6 +137,97 @@ TEST_F(EverySetting, ShowsTheSamePictureHoweverRangesAreLookedFor) {
     }
   }
   EXPECT_GT(more, 0u) << "the queries were asked";
+}
+
+/// A Cartesian volume of a BCC volume's samples: its cosets, one behind the other along z, or the first alone.
+Volume cartesian_twin(const Volume& bcc, bool both) {
+  Volume volume = bcc;
+  volume.lattice = LatticeKind::cartesian;
+  auto& samples = std::get<std::vector<float>>(volume.samples);
+  if (both)
+    volume.extents.z *= 2;
+  else
+    samples.resize(samples.size() / 2);
+  return volume;
+}
+
+/// Opacity in narrow stretches of values, apart from each other, about an isovalue; at the ends too; or nowhere.
+DirectVolume narrow_look(double isovalue, int kind) {
+  const double width = std::max(std::abs(isovalue), 0.4);
+  std::vector<TransferFunction::OpacityPoint> points;
+  const auto peak = [&](double at, double half, double opacity) {
+    const double value = isovalue + at * width;
+    points.insert(points.end(), {{value - half * width, 0.0}, {value, opacity}, {value + half * width, 0.0}});
+  };
+  if (kind == 1) points = {{isovalue - 1.1 * width, 0.3}, {isovalue - 0.9 * width, 0.0}};
+  if (kind != 1) peak(-0.7, 0.02, 0.5);
+  peak(-0.25, 0.01, 0.8);
+  peak(0.0, 0.015, 0.9);
+  peak(0.1, 0.004, 0.4);
+  if (kind != 1) peak(0.6, 0.03, 0.3);
+  if (kind == 1) points.insert(points.end(), {{isovalue + 0.5 * width, 0.0}, {isovalue + 0.8 * width, 0.2}});
+  if (kind == 2)
+    for (auto& point : points) point.opacity = 0.0;
+  DirectVolume volume;
+  volume.function.colors = {{isovalue - width, {1.0, 0.4, 0.1}}, {isovalue, {0.2, 1.0, 0.3}}, {isovalue + width, {0.2, 0.4, 1.0}}};
+  volume.function.opacities = points;
+  volume.step = 0.6;
+  volume.termination = 1.0 / 4096;
+  return volume;
+}
+
+/// How the volume is shown, in turns with every volume: post, pre-integrated, adaptive; and lit, modulated, jittered.
+void choose_look(DirectVolume& volume, Classify classify, bool adaptive, bool other) {
+  volume.classify = classify;
+  volume.entries = classify == Classify::post ? 1024 : 96;
+  volume.adaptive = adaptive;
+  volume.finest = 0.02;
+  volume.shade = !other;
+  if (other) volume.modulate_to = 0.3, volume.jitter = 5;
+}
+
+class EveryVolume : public EverySetting {
+ protected:
+  /// Every adversarial volume, the n-th seen from the n-th of three views, with the n-th of six kinds of opacity, of which one is none.
+  static std::vector<Scenery> volumes(std::string_view spline, Classify classify, bool adaptive, bool other, bool surfaces) {
+    std::vector<Scenery> all;
+    for (const AdversarialVolume& c : adversarial_volumes()) {
+      const int n = int(all.size());
+      Renderer::Request request = view_of(c, n % 3, 20);
+      request.scene.volume = narrow_look(c.isovalue, n % 6 == 5 ? 2 : n % 2);
+      choose_look(*request.scene.volume, classify, adaptive, other);
+      request.scene.isosurfaces.clear();
+      const double between = std::max(std::abs(c.isovalue), 0.4);
+      if (surfaces) request.scene.isosurfaces = {{c.isovalue + 0.3 * between, {1, 1, 0}, 0.4}, {c.isovalue - 0.4 * between, {0, 1, 1}, 1.0}};
+      const bool bcc = spline == "bcc7";
+      const Volume volume = bcc ? c.volume : cartesian_twin(c.volume, n % 2);
+      request.scene.camera = framing_camera(volume.lattice, volume.extents, volume.world, {30.0 + 120.0 * (n % 3), 75.0 - 60.0 * (n % 3), 1.0}, 20, 20);
+      if (n % 3 == 2) request.scene.camera.eye = 0.8 * request.scene.camera.target + 0.2 * request.scene.camera.eye;
+      all.push_back({c.name + " for " + std::string(spline), volume, request, std::string(spline)});
+    }
+    return all;
+  }
+};
+
+TEST_F(EveryVolume, ShowsTheClassifiedSamplesThatNoneShows) {
+  compare_all(volumes("bcc7", Classify::post, false, false, false), {1, 4, 2, 16, 8, 32});
+  compare_all(volumes("trilinear", Classify::post, false, true, false), {2, 8});
+}
+
+TEST_F(EveryVolume, ShowsThePreIntegratedStretchesThatNoneShows) {
+  compare_all(volumes("bcc7", Classify::pre_integrated, false, true, false), {1, 4, 2, 16, 8, 32});
+  compare_all(volumes("trilinear", Classify::pre_integrated, false, false, false), {2, 8});
+}
+
+TEST_F(EveryVolume, ShowsTheAdaptiveStepsThatNoneShows) {
+  compare_all(volumes("bcc7", Classify::post, true, false, false), {1, 4, 2, 16});
+  compare_all(volumes("tricubic", Classify::post, true, true, false), {2, 8});
+}
+
+TEST_F(EveryVolume, ShowsWhatNoneShowsTogetherWithSurfaces) {
+  compare_all(volumes("bcc7", Classify::pre_integrated, false, false, true), {1, 4});
+  compare_all(volumes("trilinear", Classify::post, true, false, true), {2, 8});
+  compare_all(volumes("tricubic", Classify::post, false, true, true), {4, 2});
 }
 
 TEST_F(EverySetting, HoldsNoPointOfTheSurfaceInWhatItSkips) {

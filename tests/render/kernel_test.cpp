@@ -38,6 +38,40 @@ std::vector<KernelVariant> all_variants() {
   return variants;
 }
 
+/// Those of volumes: every way to classify, alone and together with surfaces, with one structure; and one way with each.
+std::vector<KernelVariant> volume_variants() {
+  std::vector<KernelVariant> variants;
+  std::set<KernelVariant> seen;
+  for (const std::string_view label : skip_labels())
+    for (int bits = 0; bits < 512; ++bits) {
+      KernelVariant v;
+      const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
+      v.structure = structure->name();
+      v.structure_shader = structure->shader();
+      v.volume = true;
+      v.pre_integrated = bits & 1;
+      v.adaptive = bits & 2;
+      v.lit = bits & 4;
+      v.modulated = bits & 8;
+      v.jitter = bits & 16;
+      v.cost = bits & 32;
+      v.cell_test = bits & 64;
+      v.surfaces = v.composite = bits & 128;
+      v.intersect = bits & 256 ? Intersect::march : Intersect::exact;
+      const bool two_classify = v.pre_integrated && v.adaptive, march_nothing = bits & 256 && !v.surfaces;
+      // Of 32 ways to look at a volume, the surfaces see three; jitter and light are independent of the other structures.
+      const bool independent = (v.surfaces && bits & 28 && (bits & 28) != 28) || (v.jitter && !v.lit) || (v.cost && !v.lit);
+      const bool one_with_each = v.structure != "grid" && (bits & 60) != 60;
+      if (two_classify || march_nothing || independent || one_with_each || (v.cell_test && v.structure == "none")) continue;
+      if (seen.insert(v).second) variants.push_back(v);
+    }
+  KernelVariant stub;
+  stub.volume = stub.lit = stub.stub = stub.cost = true;
+  stub.surfaces = false;
+  variants.push_back(stub);
+  return variants;
+}
+
 std::string describe(const KernelVariant& v) {
   std::string text = v.structure;
   for (const KernelPart& part : kernel_parts(v)) text += (part.feature.compiled ? ", " : ", no ") + part.feature.name;
@@ -73,7 +107,10 @@ std::set<std::string> buffers_of(const std::string& name) {
 }
 
 TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothingElse) {
-  for (const KernelVariant& v : all_variants()) {
+  std::vector<KernelVariant> variants = all_variants();
+  const std::vector<KernelVariant> of_volumes = volume_variants();
+  variants.insert(variants.end(), of_volumes.begin(), of_volumes.end());
+  for (const KernelVariant& v : variants) {
     SCOPED_TRACE(describe(v));
     std::set<std::string> names, bound;
     for (const Pass pass : passes(v)) {
@@ -87,7 +124,8 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
     }
     std::set<std::string> expected{"parameters", "Color", "Hit", "Rays"};
     expected.merge(buffers_of(v.structure));
-    if (!v.stub) expected.insert("Isosurfaces");
+    if (v.surfaces && !v.stub) expected.insert("Isosurfaces");
+    if (v.volume && !v.stub) expected.insert("transferTable");
     if (v.cell_test) expected.insert("occupancy");
     if (v.cost) expected.insert("Cost");
     for (int i = 0; i < v.coefficient_buffers && !v.stub; ++i) expected.insert("coefficients" + std::to_string(i));
@@ -129,7 +167,10 @@ TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
       MEMBER(picture),
       MEMBER(blocks),
       MEMBER(bricks),
-      MEMBER(structure)};
+      MEMBER(structure),
+      MEMBER(sampling),
+      MEMBER(transfer),
+      MEMBER(modulation)};
 #undef MEMBER
   EXPECT_EQ(offsets, expected);
 }
