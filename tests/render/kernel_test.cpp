@@ -170,7 +170,8 @@ TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
       MEMBER(structure),
       MEMBER(sampling),
       MEMBER(transfer),
-      MEMBER(modulation)};
+      MEMBER(modulation),
+      MEMBER(pages)};
 #undef MEMBER
   EXPECT_EQ(offsets, expected);
 }
