@@ -104,7 +104,6 @@ TEST_F(Errors, NameThePlaceOfSamplesThatAreNotFinite) {
 TEST_F(Errors, TellHowToMakeABccVolumeOfACartesianOne) {
   const std::string command =
       "quincunx convert " + cartesian + " " + (folder / "cartesian_bcc.nrrd") + " --lattice bcc";
-  expect_refused({"render", cartesian, "-o", out, "--iso", "3"}, {command});
   expect_refused({"eval", cartesian, "--points", points}, {command});
 }
 
