@@ -42,7 +42,14 @@ bool DeviceBricks::serve(const glm::dvec3& eye, const Progress& progress) {
   const Stopwatch watch;
   sort_front_to_back(pool_.layout(), eye, wanted);
   const auto upload = [this](std::int64_t first, std::span<const float> slot) { texels_.upload(device_, first, slot); };
-  const std::vector<std::int32_t> changed = pool_.make_resident(wanted, upload, progress);
+  std::vector<std::int32_t> changed;
+  try {
+    changed = pool_.make_resident(wanted, upload, progress);
+  } catch (...) {
+    // What was evicted and loaded before counts: the whole table goes to the device.
+    gpu::upload(device_, page_table_, std::as_bytes(pool_.page_table()));
+    throw;
+  }
   if (!changed.empty()) {
     const std::size_t begin = std::size_t(changed.front()), count = std::size_t(changed.back()) - begin + 1;
     gpu::upload(device_, page_table_, std::as_bytes(pool_.page_table().subspan(begin, count)), begin * sizeof(std::int32_t));
