@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "app/values.h"
@@ -15,6 +16,12 @@ namespace {
 std::string interval_text(const Interval& i) {
   if (std::isinf(i.high)) return fmt::format("a finite number {} {}", i.open_low ? "above" : "of at least", i.low);
   return fmt::format("a number {} {} and at most {}", i.open_low ? "above" : "of at least", i.low, i.high);
+}
+
+int parse_power_of_two(std::string_view text, std::string_view flag, int low, int high) {
+  const std::int64_t n = parse_integer(text, flag, low, high);
+  if (!std::has_single_bit(std::uint64_t(n))) throw InputError(fmt::format("{}: found {}, expected a power of two from {} to {}", flag, text, low, high));
+  return int(n);
 }
 
 }  // namespace
@@ -68,11 +75,8 @@ CLI::Option* add_size(CLI::App& app, int& width, int& height) {
       ->default_str(fmt::format("{} {}", width, height));
 }
 
-int parse_block(std::string_view text, std::string_view flag) {
-  const std::int64_t n = parse_integer(text, flag, 1, 256);
-  if ((n & (n - 1)) != 0) throw InputError(fmt::format("{}: found {}, expected a power of two from 1 to 256", flag, text));
-  return int(n);
-}
+int parse_block(std::string_view text, std::string_view flag) { return parse_power_of_two(text, flag, 1, 256); }
+int parse_brick(std::string_view text, std::string_view flag) { return parse_power_of_two(text, flag, 4, 256); }
 
 CLI::Option* add_block(CLI::App& app, int& block) {
   const auto parse = [&block](const std::string& text) { block = parse_block(text, "--block"); };

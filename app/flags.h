@@ -39,6 +39,9 @@ CLI::Option* add_block(CLI::App& app, int& block);
 /// The edge of a block that is all of `text`: a power of two from 1 to 256. Throws InputError naming `flag`.
 int parse_block(std::string_view text, std::string_view flag);
 
+/// The edge of a brick that is all of `text`: a power of two from 4 to 256. Throws InputError naming `flag`.
+int parse_brick(std::string_view text, std::string_view flag);
+
 /// "--device D".
 CLI::Option* add_device(CLI::App& app, std::string& device);
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "app/flags.h"
@@ -19,6 +19,15 @@ namespace quincunx {
 namespace {
 
 using Texts = std::vector<std::string>;
+
+/// Appends the numbers of every text to `values`.
+std::function<void(const Texts&)> append_numbers(std::vector<double>& values, const char* flag) {
+  return [&values, flag](const Texts& texts) {
+    for (const std::string& text : texts) {
+      for (const double value : parse_numbers(text, flag)) values.push_back(value);
+    }
+  };
+}
 
 /// One colour, or several "#rrggbb" separated by commas.
 void append_colors(const std::string& text, std::vector<glm::dvec3>& colors) {
@@ -33,27 +42,9 @@ void append_colors(const std::string& text, std::vector<glm::dvec3>& colors) {
   }
 }
 
-/// The edge of a brick that is all of `text`.
-int parse_brick(const std::string& text) {
-  const std::int64_t edge = parse_integer(text, "--brick", 4, 256);
-  if (!std::has_single_bit(std::uint64_t(edge))) throw InputError(fmt::format("--brick: found {}, expected a power of two from 4 to 256", edge));
-  return int(edge);
-}
-
 void add_surface_flags(CLI::App& app, RenderFlags& flags) {
-  const auto numbers = [](std::vector<double>& values, const char* flag) {
-    return [&values, flag](const Texts& texts) {
-      for (const std::string& text : texts) {
-        for (const double value : parse_numbers(text, flag)) values.push_back(value);
-      }
-    };
-  };
   const std::string group = "Surfaces";
-  app.add_option_function<Texts>("--iso", numbers(flags.isovalues, "--iso"),
-                                 "Isovalues; `quincunx info` helps to choose")
-      ->type_name("V[,V...]")
-      ->allow_extra_args(false)
-      ->group(group);
+  add_isovalues(app, flags)->group(group);
   const auto colors = [&flags](const Texts& texts) {
     for (const std::string& text : texts) append_colors(text, flags.colors);
   };
@@ -62,7 +53,7 @@ void add_surface_flags(CLI::App& app, RenderFlags& flags) {
       ->type_name("COLOR")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option_function<Texts>("--opacity", numbers(flags.opacities, "--opacity"),
+  app.add_option_function<Texts>("--opacity", append_numbers(flags.opacities, "--opacity"),
                                  "0..1, one for all surfaces or one each")
       ->type_name("V[,V...]")
       ->allow_extra_args(false)
@@ -100,17 +91,9 @@ void add_output_flags(CLI::App& app, RenderFlags& flags) {
 
 void add_method_flags(CLI::App& app, RenderFlags& flags) {
   const std::string group = "Method";
-  add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
-             "First root of the polynomial pieces, or fixed steps")
-      ->group(group);
-  const auto step = [&flags](const std::string& text) {
-    flags.step = parse_number(text, "--step");
-    if (!(flags.step >= 1e-3 && flags.step <= 1e3)) throw InputError(fmt::format("--step: found {}, expected a number from 0.001 to 1000", text));
-  };
-  add_parsed(app, "--step", step, "NUMBER", "0.25 of march, 1 of a volume", "Of march and of volumes, in cells")->group(group);
-  app.add_option("--spline", flags.config.spline, "Reconstruction: bcc7; trilinear, tricubic for Cartesian volumes")
-      ->type_name("SPLINE")
-      ->group(group);
+  add_intersect(app, flags)->group(group);
+  add_step(app, flags)->group(group);
+  add_spline(app, flags)->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
              "The spline's gradient, or central differences")
       ->group(group);
@@ -123,7 +106,7 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   const auto pool = [&flags](const std::string& text) { flags.config.pool_bytes = parse_bytes(text, "--pool"); };
   add_parsed(app, "--pool", pool, "BYTES", "", "Read the volume brick by brick and keep at most so much of it on the device: 256M, 2G")
       ->group(group);
-  const auto brick = [&flags](const std::string& text) { flags.config.brick = parse_brick(text); };
+  const auto brick = [&flags](const std::string& text) { flags.config.brick = parse_brick(text, "--brick"); };
   add_parsed(app, "--brick", brick, "N", "32", "Edge of the pool's bricks in cells, a power of two from 4 to 256")->group(group);
   app.add_option("--scratch", flags.scratch, "Folder where a packed volume is unpacked for --pool; else TMPDIR or /tmp")->type_name("DIR")->group(group);
   app.add_flag("--stub-sampling", flags.scene.stub_sampling,
@@ -182,12 +165,38 @@ void add_render_flags(CLI::App& app, RenderFlags& flags) {
   add_method_flags(app, flags);
 }
 
-void check_render_flags(const RenderFlags& flags) {
+CLI::Option* add_isovalues(CLI::App& app, RenderFlags& flags) {
+  return app.add_option_function<Texts>("--iso", append_numbers(flags.isovalues, "--iso"), "Isovalues; `quincunx info` helps to choose")
+      ->type_name("V[,V...]")
+      ->allow_extra_args(false);
+}
+
+CLI::Option* add_intersect(CLI::App& app, RenderFlags& flags) {
+  return add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
+                    "First root of the polynomial pieces, or fixed steps");
+}
+
+CLI::Option* add_step(CLI::App& app, RenderFlags& flags) {
+  const auto step = [&flags](const std::string& text) {
+    flags.step = parse_number(text, "--step");
+    if (!(flags.step >= 1e-3 && flags.step <= 1e3)) throw InputError(fmt::format("--step: found {}, expected a number from 0.001 to 1000", text));
+  };
+  return add_parsed(app, "--step", step, "NUMBER", "0.25 of march, 1 of a volume", "Of march and of volumes, in cells");
+}
+
+CLI::Option* add_spline(CLI::App& app, RenderFlags& flags) {
+  return app.add_option("--spline", flags.config.spline, "Reconstruction: bcc7; trilinear, tricubic for Cartesian volumes")->type_name("SPLINE");
+}
+
+void check_something_is_seen(const RenderFlags& flags) {
   check_volume_flags(flags.look);
-  if (flags.isovalues.empty() && flags.look.transfer_function.empty()) {
-    throw InputError(
-        "--iso: found neither an isovalue nor --tf, expected one of them; 'quincunx info VOLUME' shows the range and the quantiles");
-  }
+  if (!flags.isovalues.empty() || !flags.look.transfer_function.empty()) return;
+  throw InputError(
+      "--iso: found neither an isovalue nor --tf, expected one of them; 'quincunx info VOLUME' shows the range and the quantiles");
+}
+
+void check_render_flags(const RenderFlags& flags) {
+  check_something_is_seen(flags);
   if (!flags.renders() && !flags.explain) {
     throw InputError("-o: found nothing to make, expected -o OUT.png or OUT.exr, --stats, --json or --explain");
   }
@@ -225,16 +234,21 @@ std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
   return surfaces;
 }
 
+Scene make_scene(const RenderFlags& flags) {
+  Scene scene = flags.scene;
+  scene.isosurfaces = make_isosurfaces(flags);
+  if (flags.step > 0.0) scene.step = flags.step;
+  scene.volume = make_direct_volume(flags.look, flags.step > 0.0 ? flags.step : 1.0);
+  return scene;
+}
+
 Renderer::Request make_request(const RenderFlags& flags, const Volume& volume) {
-  Renderer::Request request{.scene = flags.scene,
+  Renderer::Request request{.scene = make_scene(flags),
                             .skip = flags.skip.config,
                             .repeat = flags.repeat,
                             .count_costs = !flags.stats.empty() || flags.json};
   request.scene.cost = flags.scene.cost || flags.heat != HeatKind::none;
   request.scene.stub_sampling = flags.scene.stub_sampling || flags.heat == HeatKind::depth;
-  request.scene.isosurfaces = make_isosurfaces(flags);
-  if (flags.step > 0.0) request.scene.step = flags.step;
-  request.scene.volume = make_direct_volume(flags.look, flags.step > 0.0 ? flags.step : 1.0);
   request.scene.camera = make_camera(flags.camera, volume, request.scene.width, request.scene.height);
   check_scene(request.scene);
   return request;

@@ -43,6 +43,15 @@ bool is_exr(const std::string& path);
 
 void add_render_flags(CLI::App& app, RenderFlags& flags);
 
+/// Those of them that other commands have too: "--iso", several values; "--intersect" and "--step"; "--spline".
+CLI::Option* add_isovalues(CLI::App& app, RenderFlags& flags);
+CLI::Option* add_intersect(CLI::App& app, RenderFlags& flags);
+CLI::Option* add_step(CLI::App& app, RenderFlags& flags);
+CLI::Option* add_spline(CLI::App& app, RenderFlags& flags);
+
+/// Throws InputError where nothing is to be seen: neither an isovalue nor a transfer function.
+void check_something_is_seen(const RenderFlags& flags);
+
 /// Throws InputError naming the flag for what can be seen to be wrong before any work: no or equal isovalues, lists of
 /// unequal length, two cameras, nothing to make, a place that cannot be written.
 void check_render_flags(const RenderFlags& flags);
@@ -50,6 +59,9 @@ void check_render_flags(const RenderFlags& flags);
 /// The isosurfaces asked for, with colours and opacities of a palette where none is given: several surfaces let the
 /// eye through to the one of the highest isovalue.
 std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags);
+
+/// What is to be seen: all of the scene but its camera. Reads the transfer function. Throws InputError naming the file or flag.
+Scene make_scene(const RenderFlags& flags);
 
 /// The request for `volume`. Throws InputError naming the flag.
 Renderer::Request make_request(const RenderFlags& flags, const Volume& volume);

@@ -20,6 +20,9 @@ Image to_opaque_image(const Frame& frame);
 double percentile(std::vector<double> values, double fraction);
 
 /// The statistics of a render; README, "Statistics", names the keys.
+/// How a volume is looked at: `transfer_function` of the keys of --stats.
+nlohmann::ordered_json volume_json(const DirectVolume& volume);
+
 nlohmann::ordered_json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats,
                                   double read_ms);
 

@@ -10,7 +10,7 @@ namespace quincunx {
 
 void add_volume_flags(CLI::App& app, VolumeFlags& flags) {
   const std::string group = "Volume";
-  app.add_option("--tf", flags.transfer_function, "Transfer function, ours or ParaView's: show the volume, with --iso together with surfaces")
+  app.add_option("--tf,--dvr", flags.transfer_function, "Transfer function, ours or ParaView's: show the volume, with --iso together with surfaces")
       ->type_name("TF.json")
       ->group(group);
   // Those that mean something with --tf alone.

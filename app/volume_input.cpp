@@ -17,24 +17,11 @@ std::string bcc_path(const std::string& path) {
   return out.string() + "_bcc.nrrd";
 }
 
-/// Where sample `number` stands, as "index (i, j, k)", of a BCC volume with its coset.
-std::string place_text(const Volume& volume, std::size_t number) {
-  const std::size_t nx = std::size_t(volume.extents.x), ny = std::size_t(volume.extents.y);
-  const std::size_t nz = std::size_t(volume.extents.z);
-  const std::string index = fmt::format("index ({}, {}, {})", number % nx, number / nx % ny, number / (nx * ny) % nz);
-  return volume.lattice == LatticeKind::bcc ? fmt::format("coset {}, {}", number / (nx * ny * nz), index) : index;
-}
-
 }  // namespace
 
 Volume read_finite_volume(const std::string& path, const Progress& progress) {
   Volume volume = read_volume(path, progress);
-  const SampleRange range = sample_range(volume);
-  if (range.not_finite > 0) {
-    throw InputError(fmt::format("{}: {} of {} samples are NaN or infinite, the first at {}; expected finite samples",
-                                 path, range.not_finite, volume.sample_count(),
-                                 place_text(volume, range.first_not_finite)));
-  }
+  check_finite(sample_range(volume), volume, path);
   return volume;
 }
 

@@ -8,11 +8,10 @@
 
 namespace quincunx {
 
-/// Reads a BCC volume of finite samples. Throws InputError naming the file: for a Cartesian volume with the command
-/// that makes a BCC one of it, for NaN or infinite samples with their number and the first one's place.
-/// A volume whose samples are all finite. Throws InputError, naming the file, otherwise.
+/// Reads a volume. Throws InputError naming the file, also for samples that are NaN or infinite, with their number and the first one's place.
 Volume read_finite_volume(const std::string& path, const Progress& progress);
 
+/// The same of a BCC volume. Throws InputError for a Cartesian one with the command that makes a BCC one of it.
 Volume read_bcc_volume(const std::string& path, const Progress& progress);
 
 /// `word` as a POSIX shell reads it back.

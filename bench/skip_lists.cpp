@@ -44,6 +44,13 @@ CLI::Option* add_blocks(CLI::App& app, const std::string& flag, std::vector<int>
                     "Edges of the structures' blocks in cells, powers of two");
 }
 
+std::vector<int> parse_bricks(const std::string& text) {
+  std::vector<int> bricks;
+  for (const std::string_view brick : split_list(text)) add_new(bricks, parse_brick(brick, "--bricks"), "--bricks");
+  std::sort(bricks.begin(), bricks.end());
+  return bricks;
+}
+
 void refuse_reference(std::string_view device) {
   if (device == "cpu") throw InputError("--device: found cpu, expected a Vulkan device: the reference walks no structure");
 }

@@ -17,6 +17,7 @@
 #include "bench/gnuplot.h"
 #include "bench/output_folder.h"
 #include "bench/skip_lists.h"
+#include "bench/sweep_bricks.h"
 #include "bench/sweep_plot.h"
 #include "bench/sweep_report.h"
 #include "bench/views.h"
@@ -28,8 +29,10 @@ namespace {
 
 struct SweepFlags {
   std::string volume, folder, device;
-  RenderFlags scene;  ///< isovalues, size, intersection
+  RenderFlags scene;  ///< isovalues, transfer function, size, intersection, spline
   SweepChoices choices{.labels = {skip_labels().begin(), skip_labels().end()}};
+  std::vector<int> bricks;  ///< edges, ascending
+  std::uint64_t pool_bytes = BricksPlan{}.pool_bytes;
   int views = 8, rounds = 1;
   bool json = false;
   Verbosity verbosity = Verbosity::normal;
@@ -47,22 +50,26 @@ class InterruptedSweep final : public Interrupted {
 };
 
 /// Far enough that blocks may change, near enough that their number hardly does: a thousandth of the samples' range.
-double moved_isovalue(const SampleRange& range) {
+double moved_by(const SampleRange& range) {
   const double width = range.max - range.min;
   return 1e-3 * (width > 0.0 ? width : std::max(std::abs(range.max), 1.0));
 }
 
-/// Measures into `report.measured`; false where it was interrupted after some.
-bool measure(const SweepFlags& flags, const Volume& volume, Renderer& renderer, SweepReport& report, ProgressBar& bar) {
+/// Measures into `report.measured` and `report.bricks`; false where it was interrupted after some.
+bool measure(const SweepFlags& flags, const Scene& scene, const Volume& volume, Renderer& renderer, SweepReport& report, ProgressBar& bar) {
   Renderer::Request request;
-  request.scene = flags.scene.scene;
-  request.scene.isosurfaces = make_isosurfaces(flags.scene);
+  request.scene = scene;
   SweepPlan plan{.settings = {}, .views = orbit_views(request, volume, flags.views), .rounds = flags.rounds};
-  plan.moved_isovalue = moved_isovalue(sample_range(volume));
-  plan.settings = sweep_settings(flags.choices, chosen_skip(renderer, plan.views.front(), bar.stage("preparing")));
+  plan.moved = moved_by(sample_range(volume));
+  const SkipConfig chosen = chosen_skip(renderer, plan.views.front(), bar.stage("preparing"));
+  plan.settings = sweep_settings(flags.choices, chosen);
   report.settings = plan.settings;
   try {
     measure_sweep(renderer, plan, report.measured, bar.stage("sweeping"));
+    if (flags.bricks.empty()) return true;
+    const BricksPlan bricks{.bricks = flags.bricks, .pool_bytes = flags.pool_bytes, .device = flags.device, .config = flags.scene.config,
+                            .skip = chosen, .views = plan.views, .rounds = flags.rounds};
+    report.bricks = measure_bricks(bricks, volume, renderer, bar.stage("bricks"));
   } catch (const Interrupted&) {
     if (report.measured.empty()) throw;
     return false;
@@ -85,17 +92,28 @@ void write_outputs(const SweepReport& report, const OutputFolder& folder) {
   write_plot(report, folder.file("sweep.svg"));
 }
 
-void sweep(const SweepFlags& flags) {
+void check_sweep_flags(const SweepFlags& flags) {
+  check_something_is_seen(flags.scene);
   refuse_reference(flags.device);
+  if (flags.bricks.empty()) return;
+  if (!flags.scene.isovalues.empty() && flags.scene.scene.intersect == Intersect::march)
+    throw InputError("--bricks: found --intersect march, expected --intersect exact");
+}
+
+void sweep(const SweepFlags& flags) {
+  check_sweep_flags(flags);
   OutputFolder folder(flags.folder);
   ProgressBar bar(flags.verbosity);
-  const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
-  const auto renderer = make_renderer(flags.device, volume, {});
+  const Scene scene = make_scene(flags.scene);
+  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"));
+  const auto renderer = make_renderer(flags.device, volume, flags.scene.config);
   folder.prepare({"sweep.csv", "sweep.json", "sweep.md", "sweep.svg"});
 
-  const Scene& scene = flags.scene.scene;
   SweepReport report{.volume = flags.volume,
+                     .spline = flags.scene.config.spline.empty() ? std::string(default_spline(volume.lattice)) : flags.scene.config.spline,
                      .isovalues = flags.scene.isovalues,
+                     .transfer_function = flags.scene.look.transfer_function,
+                     .look = scene.volume,
                      .width = scene.width,
                      .height = scene.height,
                      .views = flags.views,
@@ -105,8 +123,9 @@ void sweep(const SweepFlags& flags) {
                      .choices = flags.choices,
                      .machine = {},
                      .settings = {},
-                     .measured = {}};
-  const bool complete = measure(flags, volume, *renderer, report, bar);
+                     .measured = {},
+                     .bricks = {}};
+  const bool complete = measure(flags, scene, volume, *renderer, report, bar);
   report.machine = this_machine(report.measured.front().scene.device);
   bar.erase();
 
@@ -117,17 +136,23 @@ void sweep(const SweepFlags& flags) {
     fmt::print("{}", sweep_text(report));
   }
   if (!complete) throw InterruptedSweep(report.measured.size(), report.settings.size());
+  if (!report.differing().empty()) throw std::runtime_error(sweep_pictures(report));
 }
 
 void add_scene_flags(CLI::App& app, RenderFlags& flags) {
-  add_parsed(
-      app, "--iso", [&flags](const std::string& text) { flags.isovalues = parse_numbers(text, "--iso"); }, "V[,V...]", "",
-      "Isovalues; several are rendered see-through as `quincunx render` does")
-      ->required();
+  add_isovalues(app, flags)->description("Isovalues; several are rendered see-through as `quincunx render` does");
   add_size(app, flags.scene.width, flags.scene.height);
-  add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
-             "First root of the polynomial pieces, or fixed steps");
-  add_number(app, "--step", flags.scene.step, {1e-3, 1e3}, "Of march, in cells");
+  add_intersect(app, flags);
+  add_step(app, flags);
+  add_spline(app, flags);
+  add_volume_flags(app, flags.look);
+}
+
+void add_brick_flags(CLI::App& app, SweepFlags& flags) {
+  const auto bricks = [&flags](const std::string& text) { flags.bricks = parse_bricks(text); };
+  add_parsed(app, "--bricks", bricks, "N[,N...]", "", "Also brick pools with bricks of these edges in cells, powers of two from 4 to 256");
+  const auto pool = [&flags](const std::string& text) { flags.pool_bytes = parse_bytes(text, "--pool"); };
+  add_parsed(app, "--pool", pool, "BYTES", "1G", "Size of each of these pools, at most");
 }
 
 }  // namespace
@@ -137,13 +162,14 @@ Command sweep_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("sweep", "Compare the ways to skip empty space on a volume");
   app->footer(
       "Measures every structure with every block size, none, and what --skip auto chooses: frames in turns, stages, bytes,\n"
-      "counts. Writes sweep.csv, sweep.json, sweep.md and, with gnuplot, sweep.svg to a folder. Ctrl-C keeps what was measured.");
-  app->add_option("VOLUME", flags->volume, "NRRD file of a BCC volume")->required();
+      "counts; and compares their pictures, bit for bit. Writes sweep.csv, sweep.json, sweep.md and, with gnuplot, sweep.svg to a folder. Ctrl-C keeps what was measured.");
+  app->add_option("VOLUME", flags->volume, "NRRD file of a volume")->required();
   add_scene_flags(*app, flags->scene);
   add_structures(*app, flags->choices.labels);
   add_blocks(*app, "--blocks", flags->choices.blocks);
   add_choice(*app, "--cell-test", flags->choices.cell_tests,
              {{"on", CellTests::on}, {"off", CellTests::off}, {"both", CellTests::both}}, "Test single cells too");
+  add_brick_flags(*app, *flags);
   add_integer(*app, "--orbit", flags->views, 1, 1000, "Views, their azimuths equally apart");
   add_integer(*app, "--repeat", flags->rounds, 1, 100000, "Rounds: timed frames of each setting and view");
   add_device(*app, flags->device);

@@ -17,7 +17,7 @@ struct SweepPlan {
   std::vector<Renderer::Request> views;  ///< alike but for the camera; a setting is applied to each
   int rounds = 1;
   bool details = true;       ///< all that SweepMeasurement has; else frame times and counts of blocks alone
-  double moved_isovalue = 0.0;  ///< what is added to the isovalues to learn what other ones cost
+  double moved = 0.0;        ///< what is added to isovalues and to the transfer function's values to learn what other ones cost
 };
 
 /// What one setting cost.
@@ -26,16 +26,23 @@ struct SweepMeasurement {
   std::uint64_t steps = 0, intervals = 0;
   std::vector<double> traversal_ms;           ///< of each view: the structure walked to the end of all rays, nothing evaluated
   std::uint64_t traversal_intervals = 0;      ///< of those walks together
-  RenderStats stages;                         ///< times of all that had to be made for the setting; moved isovalues
-  RenderStats scene;                          ///< bytes and counts
-  double new_isovalue_ms = 0.0;               ///< classify, cluster, build and upload when the isovalues change
+  RenderStats stages;                         ///< times of all that had to be made for the setting; moved values
+  RenderStats scene;                          ///< bytes and counts; times of what other values made necessary
+  double change_ms() const;                   ///< these together: classify, cluster, build, table and upload
+  std::uint64_t differing_pixels = 0;         ///< of the frames of all views, against those of the first setting, bit for bit
 };
+
+/// A frame's pixels that are not, bit for bit, those of another one of its size: colour, depth or normal.
+std::uint64_t differing_pixels(const Frame& a, const Frame& b);
+
+/// `scene` with all isovalues and all of the transfer function's values greater by `by`.
+Scene moved_scene(Scene scene, double by);
 
 /// Measures all settings round by round, and appends a measurement to `measured` as soon as a setting's first round is
 /// complete: when this throws (Interrupted), `measured` holds the complete ones, with the rounds that are whole. In a round a setting
 /// renders the first view untimed (structure and kernels are ready then; drivers may have dropped kernels that were compiled long ago),
-/// then each view once timed. The first round begins with moved isovalues, which tells all stages, and with each view counted and
-/// walked.
+/// then each view once timed. The first round begins with moved values, which tells all stages, and with each view counted and
+/// walked; the counted frames are compared with those of the first setting.
 void measure_sweep(Renderer& renderer, const SweepPlan& plan, std::vector<SweepMeasurement>& measured,
                    const Progress& progress = {});
 

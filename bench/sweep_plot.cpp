@@ -90,9 +90,8 @@ std::string frame_of_the_drawing(const SweepReport& report, std::size_t curve_co
   for (const int block : blocks) block_marks.push_back(fmt::format("'{0}' {0}", block));
 
   const std::string title =
-      fmt::format("{}, isovalue{} {}, {} x {}, {}", std::filesystem::path(report.volume).filename().string(),
-                  report.isovalues.size() == 1 ? "" : "s", fmt::join(report.isovalues, ", "), report.width, report.height,
-                  report.intersect == Intersect::exact ? "exact" : fmt::format("march {}", report.step));
+      fmt::format("{}, {}, {} x {}, {}", std::filesystem::path(report.volume).filename().string(), sweep_subject(report), report.width,
+                  report.height, sweep_method(report));
   const std::size_t height = std::max<std::size_t>(560, 150 + 22 * (curve_count + 3));  // none, the best and auto are in the legend too
   std::string text = fmt::format("set terminal svg size 960,{} background 'white' font 'DejaVu Sans,13'\n", height);
   text += fmt::format("set title {}.\"\\n\".{} noenhanced\n", quoted(title), quoted(report.machine.device));

@@ -76,6 +76,15 @@ bool shows_cell_test(const SweepReport& report) {
   return tests.size() > 1;
 }
 
+/// How many times as long as the whole volume's the frames of the same round and view took.
+std::vector<double> times_whole(const SweepReport& report, std::size_t n) {
+  std::vector<double> times;
+  for (std::size_t f = 0; f < report.bricks[n].frame_ms.size(); ++f) times.push_back(report.bricks[n].frame_ms[f] / report.bricks[0].frame_ms[f]);
+  return times;
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
 // ---- JSON and CSV ----
 
 Json setting_json(const SweepReport& report, std::size_t n) {
@@ -100,8 +109,9 @@ Json setting_json(const SweepReport& report, std::size_t n) {
           {"classify_ms", stages.classify_ms},
           {"cluster_ms", stages.cluster_ms},
           {"build_ms", stages.build_ms},
+          {"table_ms", stages.table_ms},
           {"upload_ms", stages.upload_ms},
-          {"new_isovalue_ms", m.new_isovalue_ms},
+          {"change_ms", m.change_ms()},
           {"structure_bytes", device_bytes(scene, "structure")},
           {"occupancy_bytes", device_bytes(scene, "occupancy")},
           {"blocks", scene.blocks},
@@ -117,7 +127,25 @@ Json setting_json(const SweepReport& report, std::size_t n) {
           {"traversal_intervals_per_ray", walked},
           {"depth_complexity", axes == 0 ? Json() : Json(walked / double(axes))},
           {"rays", m.cost.rays},
-          {"hits", m.cost.hits}};
+          {"hits", m.cost.hits},
+          {"differing_pixels", m.differing_pixels}};
+}
+
+Json bricks_json(const SweepReport& report, std::size_t n) {
+  const BricksMeasurement& m = report.bricks[n];
+  const Spread ms = spread(m.frame_ms), times = spread(times_whole(report, n));
+  Json json{{"brick", m.brick > 0 ? Json(m.brick) : Json()},
+            {"frame_ms_median", ms.median},
+            {"frame_ms_p5", ms.p5},
+            {"frame_ms_p95", ms.p95},
+            {"times_whole", times.median},
+            {"device_bytes", m.device_bytes},
+            {"differing_pixels", m.differing_pixels}};
+  if (m.brick > 0)
+    json.update({{"count", m.first.count}, {"slots", m.first.slots}, {"resident", m.first.resident}, {"first_loads", m.first.loads},
+                 {"first_rounds", m.first.rounds}, {"first_load_ms", m.first.load_ms}, {"loads", m.loads}});
+  json["frames_ms"] = m.frame_ms;
+  return json;
 }
 
 const char* cell_tests_word(CellTests tests) {
@@ -133,6 +161,13 @@ Json choice_json(const SweepReport& report) {
           {"block", chosen->skips() ? Json(chosen->skip.block) : Json()},
           {"cell_test", chosen->skip.cell_test},
           {"times_best", known ? Json(median_ms(report, n) / median_ms(report, report.best())) : Json()}};
+}
+
+/// Caption, tables and sentences, the tables as `text` writes them, each sentence ended by `end`.
+std::string sweep_page(const SweepReport& report, std::string (*text)(const Table&), std::string_view end) {
+  std::string page = fmt::format("{}\n\n{}\n{}\n", sweep_caption(report), text(sweep_frame_table(report)), text(sweep_stage_table(report)));
+  if (!report.bricks.empty()) page += fmt::format("{}\n", text(sweep_bricks_table(report)));
+  return page + fmt::format("{}{}\n{}{}\n", sweep_choice(report), end, sweep_pictures(report), end);
 }
 
 }  // namespace
@@ -151,15 +186,38 @@ Spread SweepReport::speedup_of(std::size_t setting) const {
   return speedup(measured[setting].cost, baseline);
 }
 
+std::vector<std::string> SweepReport::differing() const {
+  std::vector<std::string> all;
+  for (std::size_t n = 0; n < measured.size(); ++n)
+    if (measured[n].differing_pixels > 0) all.push_back(fmt::format("{}: {} pixels", short_name(settings[n]), measured[n].differing_pixels));
+  for (const BricksMeasurement& m : bricks)
+    if (m.differing_pixels > 0) all.push_back(fmt::format("bricks of {}: {} pixels", m.brick, m.differing_pixels));
+  return all;
+}
+
+std::string sweep_subject(const SweepReport& report) {
+  std::vector<std::string> parts;
+  if (!report.isovalues.empty()) parts.push_back(fmt::format("isovalue{} {}", report.isovalues.size() == 1 ? "" : "s", fmt::join(report.isovalues, ", ")));
+  if (report.look) parts.push_back("transfer function " + file_name(report.transfer_function));
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+std::string sweep_method(const SweepReport& report) {
+  std::vector<std::string> parts;
+  if (!report.isovalues.empty()) parts.push_back(report.intersect == Intersect::exact ? "exact" : fmt::format("march {}", report.step));
+  if (report.look)
+    parts.push_back(fmt::format("{}{}, steps of {} cell{}", report.look->classify == Classify::post ? "post" : "pre-integrated",
+                                report.look->shade ? "" : ", unlit", report.look->step, report.look->step == 1.0 ? "" : "s"));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string sweep_caption(const SweepReport& report) {
   const auto count = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  return fmt::format(
-      "{}, isovalue{} {}, {} x {}, {}, {}, {}{}; {}. Medians, milliseconds; speed-up over none. * the best, + what --skip auto chose.",
-      std::filesystem::path(report.volume).filename().string(), report.isovalues.size() == 1 ? "" : "s",
-      fmt::join(report.isovalues, ", "), report.width, report.height, count(report.views, "view"), count(report.rounds, "round"),
-      report.intersect == Intersect::exact ? "exact" : fmt::format("march {}", report.step),
-      both_cell_tests(report) ? "" : fmt::format(", cell test {}", cell_tests_word(report.choices.cell_tests)),
-      machine_text(report.machine));
+  return fmt::format("{}, {}, {}, {} x {}, {}, {}, {}{}; {}. Medians, milliseconds; speed-up over none. * the best, + what --skip auto chose.",
+                     file_name(report.volume), report.spline, sweep_subject(report), report.width, report.height, count(report.views, "view"),
+                     count(report.rounds, "round"), sweep_method(report),
+                     both_cell_tests(report) ? "" : fmt::format(", cell test {}", cell_tests_word(report.choices.cell_tests)),
+                     machine_text(report.machine));
 }
 
 Table sweep_frame_table(const SweepReport& report) {
@@ -199,7 +257,7 @@ Table sweep_stage_table(const SweepReport& report) {
   const bool tests = shows_cell_test(report);
   Table table{.headings = {"structure"}, .rows = {}, .left = tests ? 2u : 1u};
   if (tests) table.headings.emplace_back("cell test");
-  for (const char* heading : {"block", "blocks", "active", "%", "leaves", "leaves/active %", "classify", "cluster", "build", "upload",
+  for (const char* heading : {"block", "blocks", "active", "%", "leaves", "leaves/active %", "classify", "cluster", "build", "upload", "change",
                               "bytes", "traversal", "frame", "worst", "speed-up"})
     table.headings.emplace_back(heading);
   const auto percent = [](std::uint64_t part, std::uint64_t whole) {
@@ -219,6 +277,7 @@ Table sweep_stage_table(const SweepReport& report) {
     row.push_back(percent(scene.leaves, scene.active_blocks));
     for (const double ms : {m.stages.classify_ms, m.stages.cluster_ms, m.stages.build_ms, m.stages.upload_ms})
       row.push_back(three_digits(ms));
+    row.push_back(three_digits(m.change_ms()));
     row.push_back(fmt::format("{}", device_bytes(scene, "structure")));
     row.push_back(three_digits(percentile(m.traversal_ms, 0.5)));
     row.push_back(marks(report, n) + three_digits(median_ms(report, n)));
@@ -227,6 +286,31 @@ Table sweep_stage_table(const SweepReport& report) {
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+Table sweep_bricks_table(const SweepReport& report) {
+  Table table{.headings = {"brick", "bricks", "slots", "resident", "first loads", "first loading", "later loads", "MiB", "frame", "times whole"}, .rows = {}, .left = 1};
+  for (std::size_t n = 0; n < report.bricks.size(); ++n) {
+    const BricksMeasurement& m = report.bricks[n];
+    std::vector<std::string> row{m.brick > 0 ? fmt::format("{}", m.brick) : "whole volume"};
+    for (const std::uint64_t number : {m.first.count, m.first.slots, m.first.resident, m.first.loads})
+      row.push_back(m.brick > 0 ? fmt::format("{}", number) : "-");
+    row.push_back(m.brick > 0 ? three_digits(m.first.load_ms) : "-");
+    row.push_back(m.brick > 0 ? fmt::format("{}", m.loads) : "-");
+    row.push_back(three_digits(double(m.device_bytes) / 1048576.0));
+    row.push_back(three_digits(percentile(m.frame_ms, 0.5)));
+    row.push_back(three_digits(percentile(times_whole(report, n), 0.5)));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string sweep_pictures(const SweepReport& report) {
+  const std::vector<std::string> differing = report.differing();
+  const std::size_t others = report.measured.size() - 1 + (report.bricks.empty() ? 0 : report.bricks.size() - 1);
+  if (differing.empty())
+    return fmt::format("the pictures of {} other setting{} are those of none, bit for bit", others, others == 1 ? "" : "s");
+  return fmt::format("DIFFERENT PICTURES: {}", fmt::join(differing, "; "));
 }
 
 std::string sweep_choice(const SweepReport& report) {
@@ -245,12 +329,17 @@ Json sweep_json(const SweepReport& report) {
   const Machine& machine = report.machine;
   Json json{{"measurement", "sweep"},
             {"volume", report.volume},
+            {"spline", report.spline},
             {"isovalues", report.isovalues},
             {"size", {report.width, report.height}},
             {"orbit", report.views},
             {"repeat", report.rounds},
             {"intersect", report.intersect == Intersect::exact ? "exact" : "march"}};
   if (report.intersect == Intersect::march) json["step"] = report.step;
+  if (report.look) {
+    json["transfer_function"] = volume_json(*report.look);
+    json["transfer_function"]["file"] = report.transfer_function;
+  }
   json["structures"] = report.choices.labels;
   json["blocks"] = report.choices.blocks;
   json["cell_test"] = cell_tests_word(report.choices.cell_tests);
@@ -268,6 +357,7 @@ Json sweep_json(const SweepReport& report) {
     setting["traversals_ms"] = report.measured[n].traversal_ms;
     json["settings"].push_back(std::move(setting));
   }
+  for (std::size_t n = 0; n < report.bricks.size(); ++n) json["bricks"].push_back(bricks_json(report, n));
   return json;
 }
 
@@ -286,14 +376,7 @@ std::string sweep_csv(const SweepReport& report) {
   return text;
 }
 
-std::string sweep_markdown(const SweepReport& report) {
-  return fmt::format("{}\n\n{}\n{}\n{}.\n", sweep_caption(report), markdown_text(sweep_frame_table(report)),
-                     markdown_text(sweep_stage_table(report)), sweep_choice(report));
-}
-
-std::string sweep_text(const SweepReport& report) {
-  return fmt::format("{}\n\n{}\n{}\n{}\n", sweep_caption(report), plain_text(sweep_frame_table(report)),
-                     plain_text(sweep_stage_table(report)), sweep_choice(report));
-}
+std::string sweep_markdown(const SweepReport& report) { return sweep_page(report, markdown_text, "."); }
+std::string sweep_text(const SweepReport& report) { return sweep_page(report, plain_text, ""); }
 
 }  // namespace quincunx

@@ -113,8 +113,9 @@ TEST_F(Pool, HasNoMoreSlotsThanBricks) {
 TEST_F(Pool, OfNoSizeIsRefused) {
   for (const std::string bad : {"0", "10", "many", "-5M", "", "4MB", "nan", "1e3", "99999T"})
     expect_refused(render({"--pool=" + bad}), {"--pool", bad});
-  for (const std::string bad : {"3", "512", "12", "0", "-8", "large", ""})
+  for (const std::string bad : {"3", "512", "12", "0", "-8", "large"})
     expect_refused(render({"--pool", "1M", "--brick=" + bad}), {"--brick", bad, "4 to 256"});
+  expect_refused(render({"--pool", "1M", "--brick="}), {"--brick", "required N missing"});
 }
 
 TEST_F(Pool, RefusesWhatNeedsTheWholeVolume) {
@@ -129,7 +130,7 @@ TEST_F(Pool, NamesThePlaceOfSamplesThatAreNotFinite) {
   const std::string nan = folder / "nan.nrrd";
   write_volume(broken, nan);
   for (const std::string structure : {"none", "auto", "octree"})
-    expect_refused({"render", nan, "-o", out, "--iso", "0", "--pool", "1M", "--skip", structure}, {"nan.nrrd", "1 of 1320", "index (7, 8, 9)"});
+    expect_refused({"render", nan, "-o", out, "--iso", "0", "--pool", "1M", "--skip", structure}, {"nan.nrrd", "1 NaN or infinite of 1320", "index (7, 8, 9)"});
 }
 
 TEST_F(Pool, EndsAtCtrlCAndLeavesNothing) {

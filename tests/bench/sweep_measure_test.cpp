@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "accel/structure.h"
 #include "lattice/error.h"
@@ -28,14 +29,17 @@ class NotingRenderer final : public Renderer {
     stats.cluster_ms = 1000.0;
     stats.build_ms = 100.0;
     stats.upload_ms = 10.0;
+    stats.table_ms = 5.0;
     stats.rays = 10;
     stats.hits = 4;
     if (request.count_costs) stats.evaluations = 30, stats.steps = 20, stats.intervals = request.scene.stub_sampling ? 70 : 50;
-    return {};
+    if (frames.empty()) return {};
+    return request.skip.structure == "none" ? frames.at(0) : frames.at(1);
   }
   std::vector<Feature> explain(const Request&) override { return {}; }
 
   std::vector<Request> requests;
+  std::vector<Frame> frames;  ///< of none, and of all others
   std::size_t most = 1000000;
   SkipConfig automatic;
 };
@@ -50,7 +54,7 @@ class SweepMeasureTest : public testing::Test {
       plan.views[v].scene.isosurfaces = {Isosurface{.isovalue = kIsovalue}};
     }
     plan.rounds = 3;
-    plan.moved_isovalue = kMoved;
+    plan.moved = kMoved;
   }
 
   /// What was asked for, in few letters: the view; m with moved isovalues, c counted, s a walk, sc a counted walk, t true and plain.
@@ -105,7 +109,7 @@ TEST_F(SweepMeasureTest, TakesEachNumberFromTheFrameThatItBelongsTo) {
   const double first = kFirstRound + 1;  // number of the setting's first frame
   EXPECT_EQ(m.stages.classify_ms, first);
   EXPECT_EQ(m.scene.classify_ms, first + 1);
-  EXPECT_EQ(m.new_isovalue_ms, first + 1 + 1110.0);
+  EXPECT_EQ(m.change_ms(), first + 1 + 1115.0);
   EXPECT_EQ(m.traversal_ms, (std::vector<double>{first + 5, first + 6}));
   EXPECT_EQ(m.traversal_intervals, 140u);
   EXPECT_EQ(m.cost.rays, 20u);
@@ -116,6 +120,47 @@ TEST_F(SweepMeasureTest, TakesEachNumberFromTheFrameThatItBelongsTo) {
   // The warm-up frame of a later round is not among the timed ones.
   const double second = 5 * kFirstRound + kLaterRound + 1, third = second + 5 * kLaterRound;
   EXPECT_EQ(m.cost.frame_ms, (std::vector<double>{first + 7, first + 8, second + 1, second + 2, third + 1, third + 2}));
+}
+
+/// Two pixels.
+Frame small_frame() { return {2, 1, {1, 2, 3, 4, 5, 6, 7, 8}, {9, 10}, {11, 12, 13, 14, 15, 16}, {}}; }
+
+TEST_F(SweepMeasureTest, CountsThePixelsOfAllViewsThatAreNotThoseOfNone) {
+  Frame other = small_frame();
+  other.normal[5] = std::nextafter(other.normal[5], 0.0f);
+  renderer.frames = {small_frame(), other};
+  measure_sweep(renderer, plan, measured);
+  EXPECT_EQ(measured[0].differing_pixels, 0u);
+  for (std::size_t n = 1; n < measured.size(); ++n) EXPECT_EQ(measured[n].differing_pixels, 2u);  // one in each view
+}
+
+TEST(DifferingPixels, AreThoseWithAnyOtherBit) {
+  const Frame truth = small_frame();
+  EXPECT_EQ(differing_pixels(truth, truth), 0u);
+  Frame other = truth;
+  other.color[0] = 0.0f, other.color[3] = 0.0f, other.depth[0] = 0.0f;  // all of the first pixel
+  EXPECT_EQ(differing_pixels(truth, other), 1u);
+  other = truth;
+  other.depth[1] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(differing_pixels(truth, other), 1u);
+  other = truth;
+  other.normal[0] = other.normal[3] = -0.0f;
+  EXPECT_EQ(differing_pixels(truth, other), 2u);
+  Frame zero = other;
+  zero.normal[0] = zero.normal[3] = 0.0f;
+  EXPECT_EQ(differing_pixels(zero, other), 2u);  // equal numbers, other bits
+}
+
+TEST(MovedScene, MovesIsovaluesAndEveryPointOfTheTransferFunction) {
+  Scene scene;
+  scene.isosurfaces = {Isosurface{.isovalue = 3.0}};
+  scene.volume = DirectVolume{};
+  scene.volume->function = {.colors = {{0.0, glm::dvec3(1.0)}}, .opacities = {{1.0, 0.0}, {2.0, 0.5}}};
+  const Scene moved = moved_scene(scene, 0.25);
+  EXPECT_EQ(moved.isosurfaces[0].isovalue, 3.25);
+  EXPECT_EQ(moved.volume->function.colors[0].value, 0.25);
+  EXPECT_EQ(moved.volume->function.opacities[1].value, 2.25);
+  EXPECT_EQ(moved.volume->function.opacities[1].opacity, 0.5);
 }
 
 TEST_F(SweepMeasureTest, WithoutDetailsWarmsUpAndTimesAlone) {

@@ -26,6 +26,8 @@ SweepMeasurement measurement(std::vector<double> frame_ms, const SweepSetting& s
   m.traversal_intervals = 1200;
   m.stages.classify_ms = 0.5;
   m.stages.cluster_ms = 0.25;
+  m.scene.build_ms = 1.0;
+  m.scene.table_ms = 0.75;
   m.scene.device_bytes = {{"coefficients", 9}, {"structure", 4096}, {"occupancy", 77}};
   if (!setting.skips()) return m;
   m.scene.blocks = 64;
@@ -38,7 +40,10 @@ SweepMeasurement measurement(std::vector<double> frame_ms, const SweepSetting& s
 /// none 40 and 80 ms; grid half, octree a quarter of it with blocks of 4; both 20 ms slower with blocks of 8. Auto chose grid, 8.
 SweepReport known_report() {
   SweepReport report{.volume = "folder/some_volume.nrrd",
+                     .spline = "bcc7",
                      .isovalues = {1.5, 2.0},
+                     .transfer_function = "",
+                     .look = {},
                      .width = 10,
                      .height = 10,
                      .views = 2,
@@ -46,7 +51,8 @@ SweepReport known_report() {
                      .choices = {.labels = {"grid", "octree"}, .blocks = {4, 8}},
                      .machine = {"a device", "", "a processor", 2},
                      .settings = {},
-                     .measured = {}};
+                     .measured = {},
+                     .bricks = {}};
   report.settings = sweep_settings(report.choices, labelled_skip("grid", {.block = 8}));
   const std::vector<std::vector<double>> frames{
       {40, 80, 40, 80}, {20, 40, 20, 40}, {10, 20, 10, 20}, {40, 60, 40, 60}, {30, 40, 30, 40}};
@@ -78,9 +84,9 @@ TEST(SweepReport, FrameTableHasRowsWithAndWithoutCellTestsWhereBothWereMeasured)
 TEST(SweepReport, StageTableHasARowForEachSetting) {
   const Table table = sweep_stage_table(known_report());
   ASSERT_EQ(table.rows.size(), 5u);
-  EXPECT_THAT(table.rows[0], ElementsAre("none", "-", "0", "0", "-", "0", "-", "0.5", "0.25", "0", "0", "4096", "2", "60", "80", "1"));
+  EXPECT_THAT(table.rows[0], ElementsAre("none", "-", "0", "0", "-", "0", "-", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "60", "80", "1"));
   EXPECT_THAT(table.rows[2],
-              ElementsAre("octree", "4", "64", "16", "25", "4", "25", "0.5", "0.25", "0", "0", "4096", "2", "*15", "20", "4"));
+              ElementsAre("octree", "4", "64", "16", "25", "4", "25", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "*15", "20", "4"));
   EXPECT_EQ(table.headings.size(), table.rows[0].size());
 }
 
@@ -107,7 +113,7 @@ TEST(SweepReport, TellsHowFarAutoIsFromTheBest) {
 
 TEST(SweepReport, CaptionSaysWhatWasMeasuredWhere) {
   const std::string caption = sweep_caption(known_report());
-  for (const char* part : {"some_volume.nrrd, isovalues 1.5, 2, 10 x 10, 2 views, 2 rounds, exact, cell test on", "a device", "* the best"})
+  for (const char* part : {"some_volume.nrrd, bcc7, isovalues 1.5, 2, 10 x 10, 2 views, 2 rounds, exact, cell test on", "a device", "* the best"})
     EXPECT_THAT(caption, HasSubstr(part));
   EXPECT_THAT(caption, Not(HasSubstr("folder")));
 }
@@ -135,6 +141,58 @@ TEST(SweepReport, JsonHasTheStatisticsOfEachSetting) {
   EXPECT_TRUE(json["settings"][0]["depth_complexity"].is_null());
 }
 
+TEST(SweepReport, SaysWhatIsSeenAndHow) {
+  SweepReport report = known_report();
+  EXPECT_EQ(sweep_subject(report), "isovalues 1.5, 2");
+  report.transfer_function = "folder/head.json";
+  report.look = DirectVolume{};
+  report.look->step = 0.5;
+  report.intersect = Intersect::march;
+  report.step = 0.25;
+  EXPECT_EQ(sweep_subject(report), "isovalues 1.5, 2 and transfer function head.json");
+  EXPECT_EQ(sweep_method(report), "march 0.25, post, steps of 0.5 cells");
+  report.isovalues.clear();
+  report.look->step = 1.0;
+  report.look->shade = false;
+  report.look->classify = Classify::pre_integrated;
+  EXPECT_EQ(sweep_subject(report), "transfer function head.json");
+  EXPECT_EQ(sweep_method(report), "pre-integrated, unlit, steps of 1 cell");
+  const auto json = sweep_json(report);
+  EXPECT_EQ(json["transfer_function"]["file"], "folder/head.json");
+  EXPECT_EQ(json["transfer_function"]["classify"], "pre-integrated");
+}
+
+TEST(SweepReport, BricksTableHasARowForTheWholeVolumeAndEachSizeOfBrick) {
+  SweepReport report = known_report();
+  BricksMeasurement whole, bricks;
+  whole.frame_ms = {10, 20};
+  whole.device_bytes = 1 << 20;
+  bricks = {.brick = 16, .first = {.edge = 16, .count = 64, .slots = 9, .resident = 7, .loads = 8, .evictions = 1, .loaded_bytes = 99, .rounds = 3, .load_ms = 2.5},
+            .first_ms = 4.0, .frame_ms = {11, 30}, .loads = 5, .device_bytes = 1 << 21, .differing_pixels = 0};
+  report.bricks = {whole, bricks};
+  const Table table = sweep_bricks_table(report);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_THAT(table.rows[0], ElementsAre("whole volume", "-", "-", "-", "-", "-", "-", "1", "15", "1"));
+  EXPECT_THAT(table.rows[1], ElementsAre("16", "64", "9", "7", "8", "2.5", "5", "2", "20.5", "1.3"));
+  EXPECT_EQ(table.headings.size(), table.rows[0].size());
+  EXPECT_THAT(sweep_text(report), HasSubstr("whole volume"));
+  const auto json = sweep_json(report);
+  EXPECT_TRUE(json["bricks"][0]["brick"].is_null());
+  EXPECT_EQ(json["bricks"][1]["first_rounds"], 3);
+  EXPECT_EQ(json["bricks"][1]["loads"], 5);
+}
+
+TEST(SweepReport, SaysLoudlyWherePicturesDiffer) {
+  SweepReport report = known_report();
+  EXPECT_EQ(sweep_pictures(report), "the pictures of 4 other settings are those of none, bit for bit");
+  report.measured[2].differing_pixels = 12;
+  report.bricks.resize(2);
+  report.bricks[1].brick = 32;
+  report.bricks[1].differing_pixels = 1;
+  EXPECT_THAT(report.differing(), ElementsAre("octree, 4: 12 pixels", "bricks of 32: 1 pixels"));
+  EXPECT_THAT(sweep_pictures(report), HasSubstr("DIFFERENT PICTURES: octree, 4: 12 pixels"));
+}
+
 TEST(SweepReport, CsvHasAHeaderAndALineForEachMeasuredSetting) {
   SweepReport report = known_report();
   report.measured[1].cost.frame_ms.assign(4, 1.0 / 3.0);
@@ -145,14 +203,14 @@ TEST(SweepReport, CsvHasAHeaderAndALineForEachMeasuredSetting) {
   EXPECT_THAT(lines[0], testing::StartsWith("structure,block,cell_test,auto,frame_ms_median,"));
   EXPECT_THAT(lines[1], testing::StartsWith("none,,false,false,60.0,"));
   EXPECT_THAT(lines[2], testing::StartsWith("grid,4,true,false,0.3333333333333333,"));
-  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 32);
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 34);
 }
 
 TEST(SweepReport, TextsHoldBothTablesAndTheChoice) {
   const SweepReport report = known_report();
-  EXPECT_EQ(test::lines(sweep_text(report)).size(), 1 + 1 + 3 + 1 + 6 + 1 + 1u);
+  EXPECT_EQ(test::lines(sweep_text(report)).size(), 1 + 1 + 3 + 1 + 6 + 1 + 2u);
   const std::string markdown = sweep_markdown(report);
-  EXPECT_EQ(test::lines(markdown).size(), 1 + 1 + 4 + 1 + 7 + 1 + 1u);
+  EXPECT_EQ(test::lines(markdown).size(), 1 + 1 + 4 + 1 + 7 + 1 + 2u);
   EXPECT_THAT(markdown, HasSubstr("| octree    |   60 | *15 |"));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -93,7 +94,7 @@ TEST_F(SweepProgram, WritesTheSameNumbersAsTablesCsvJsonAndADrawing) {
   EXPECT_EQ(grid["block"], 8);
   EXPECT_LT(grid["evaluations_per_ray"], none["evaluations_per_ray"]);
   EXPECT_GT(grid["classify_ms"], 0.0);
-  EXPECT_GT(grid["new_isovalue_ms"], 0.0);
+  EXPECT_GT(grid["change_ms"], 0.0);
   EXPECT_GT(grid["depth_complexity"], 0.0);
   EXPECT_GT(grid["structure_bytes"], 0);
   EXPECT_GT(grid["occupancy_bytes"], 0);
@@ -106,6 +107,40 @@ TEST_F(SweepProgram, WritesTheSameNumbersAsTablesCsvJsonAndADrawing) {
   } else {
     EXPECT_THAT(outcome.err, HasSubstr("gnuplot"));
   }
+}
+
+TEST_F(SweepProgram, ComparesVolumesAndBricksAndFindsTheirPicturesTheSame) {
+  const std::string tf = QUINCUNX_SOURCE_DIR "/data/transfer/neghip_clear.json";
+  const Outcome outcome = run({"sweep", kNeghip, "--dvr", tf, "--size", "48", "48", "--orbit", "2", "--structures", "grid,octree,bvh:boxes", "--blocks", "8",
+                               "--bricks", "32,8", "--pool", "600K", "--classify", "pre-integrated", "-o", out});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("transfer function neghip_clear.json"));
+  EXPECT_THAT(outcome.out, HasSubstr("bit for bit"));
+  const json report = json::parse(read_file(out + "/sweep.json"));
+  EXPECT_EQ(report["transfer_function"]["classify"], "pre-integrated");
+  EXPECT_EQ(report["isovalues"], json::array());
+  for (const json& setting : report["settings"]) {
+    EXPECT_EQ(setting["differing_pixels"], 0);
+    EXPECT_GT(setting["table_ms"], 0.0);
+    EXPECT_GT(setting["hits"], 100);
+  }
+  ASSERT_EQ(report["bricks"].size(), 3u);
+  EXPECT_TRUE(report["bricks"][0]["brick"].is_null());
+  EXPECT_EQ(report["bricks"][1]["brick"], 8);
+  EXPECT_EQ(report["bricks"][1]["differing_pixels"], 0);
+  EXPECT_EQ(report["bricks"][2]["count"], 8);
+  EXPECT_EQ(report["bricks"][2]["slots"], 8);  // 19^3 x 2 floats each are 54,872 bytes
+  EXPECT_EQ(report["bricks"][2]["loads"], 0);  // all are resident when frames are timed
+  EXPECT_EQ(report["bricks"][1]["frames_ms"].size(), 2u);
+}
+
+TEST_F(SweepProgram, TakesCartesianVolumes) {
+  const std::string volume = folder / "v.nrrd";
+  write_volume(make_volume(LatticeKind::cartesian, {12, 11, 10}, {}, [](const glm::dvec3& x) { return std::sin(0.5 * x.x) + std::cos(0.4 * x.y); }), volume);
+  const Outcome outcome = run({"sweep", volume, "--iso", "0.3", "--spline", "tricubic", "--size", "24", "24", "--orbit", "1", "--structures", "grid",
+                               "--blocks", "4", "--quiet", "--json", "-o", out});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["spline"], "tricubic");
 }
 
 TEST_F(SweepProgram, WritesAllButTheDrawingWithoutGnuplot) {
@@ -153,7 +188,12 @@ TEST_F(SweepProgram, InterruptedLeavesNothingOrWholeFiles) {
 
 TEST_F(SweepProgram, RefusesBadInputInOneLineAndMakesNoFolder) {
   expect_refused(sweep({}), {"--output"});
-  expect_refused({"sweep", kNeghip, "-o", out}, {"--iso"});
+  expect_refused({"sweep", kNeghip, "-o", out}, {"--iso", "--tf"});
+  expect_refused({"sweep", kNeghip, "--tf", folder / "none.json", "-o", out}, {"none.json"});
+  expect_refused({"sweep", kNeghip, "--iso", "40", "--classify", "post", "-o", out}, {"--classify", "--tf"});
+  expect_refused(sweep({"--bricks", "8,12", "-o", out}), {"--bricks", "12", "power of two from 4 to 256"});
+  expect_refused(sweep({"--bricks", "16,16", "-o", out}), {"--bricks", "twice"});
+  expect_refused(sweep({"--bricks", "16", "--intersect", "march", "-o", out}), {"--bricks", "march"});
   Arguments unknown{"--structures", "grid,tree", "-o", out};
   std::vector<std::string> parts{"--structures", "'tree'"};
   parts.insert(parts.end(), skip_labels().begin(), skip_labels().end());
