@@ -211,7 +211,7 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
   gpu::Resources all = skipping_->resources();
-  all.insert(all.end(), {{"parameters", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
+  all.insert(all.end(), {{"uniforms", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
                          {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
   if (bricks_) all.emplace_back("Parked", band.parked);
   const gpu::Resources coefficients = bricks_ ? bricks_->resources() : texels_.resources();
@@ -257,7 +257,7 @@ double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, cons
     const bool waits = bricks_ && pass.pass != Pass::traverse;
     do {
       if (waits) bricks_->clear_requests();
-      ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+      double one = gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group); if (getenv("QP")) fprintf(stderr, "enter %.1f pass %.1f rays %u\n", ms, one, rays); ms += one;
     } while (waits && bricks_->serve(lattice_eye(scene), progress));
   }
   return ms;

@@ -3,9 +3,15 @@
 // Stretch k begins at `begin` + k dt, where `begin` is the ray's entry into the domain, and the last one ends with the ray: pure functions
 // of the ray, whatever is skipped. What is skipped has no opacity, and adds exactly nothing (docs/exactness.md).
 //
-// One flat loop in which every busy lane evaluates the spline once a trip; no lane leaves a loop before its subgroup does, and what it
-// has is kept by selection (intersect_exact.glsl says why).
+// Two loops: the outer one finds stretches that may matter, the inner one evaluates the spline, once a trip in every lane that has some,
+// for as long as most lanes have. No lane leaves a loop before its subgroup does, and what it has is kept by selection
+// (intersect_exact.glsl says why).
 #include "transfer.glsl"
+
+#if defined(SURFACES) || defined(MODULATED) || defined(JITTER) || defined(ADAPTIVE)
+// Any stretch may be seen in part; otherwise the last one of a ray alone.
+#define CUT_ANYWHERE
+#endif
 
 struct VolumeRay {
   Walk walk;
@@ -15,6 +21,7 @@ struct VolumeRay {
   float shift;           // by which part of a stretch the first one begins before the ray
   float k;               // the next stretch
   float reached;         // what is before has been integrated
+  float known;           // stretches before this one may all matter: nothing is to be asked
 #ifdef PRE_INTEGRATED
   bool have;             // the value where stretch k goes on is known:
   float front;           // its place in the table
@@ -25,6 +32,10 @@ struct VolumeRay {
 #endif
 #ifdef BRICKS
   bool parked;           // the next place waits for its brick
+#endif
+#ifndef CUT_ANYWHERE
+  vec4 last;             // the ray's last stretch as if it were whole
+  float last_part;       // of it, that the ray goes through; 0 before it is known
 #endif
 #ifdef COST
   uint evaluations;
@@ -89,6 +100,7 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
 #endif
   volume.reached = ray.begin;
   volume.k = stretch_before(ray, volume, walk.t);
+  volume.known = volume.k;
 #ifdef PRE_INTEGRATED
   volume.have = false;
   volume.front = 0.0;
@@ -99,6 +111,10 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
 #endif
 #ifdef BRICKS
   volume.parked = false;
+#endif
+#ifndef CUT_ANYWHERE
+  volume.last = vec4(0.0);
+  volume.last_part = 0.0;
 #endif
 #ifdef COST
   volume.evaluations = 0u;
@@ -114,60 +130,71 @@ bool opaque(Seen seen) { return seen.transmittance <= parameters.sampling.z; }
 #define STRETCHES
 #endif
 
-// Where `wanted`, moves on to the next stretch before `end` that may have opacity. False where there is none left, or (some are left:
-// call again) where the walk is broken off because no more than `break_at` lanes of the subgroup still walk.
+// How many stretches are looked ahead, at least, as long as they may matter.
+const float AHEAD = 24.0;
+
+// Where `wanted`, moves on to the next stretch before `end` that may have opacity, and finds how many after it may too (`known`), about AHEAD
+// of them. False where there is none left, or (some are left: call again) where the walk is broken off because no more than `break_at` lanes
+// of the subgroup still walk.
 bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint break_at) {
 #ifndef SKIP
 #ifdef COST
   volume.walk.steps += wanted ? 1u : 0u;
 #endif
+  volume.known = NO_HIT;  // all
   return wanted && stretches_left(ray, volume, end);
 #else
-  bool found = false;
+  bool found = false, extending = false;
   bool seeking = wanted && stretches_left(ray, volume, end);
+  float through = ray.begin;  // of a stretch found: all until then may matter
   do {
     Stretch s = stretch_left(ray, volume, end);
 #ifdef STRETCHES
-    float t = s.first;
+    float t = extending ? through : s.first;
 #else
-    float t = 0.5 * (s.first + s.last);
+    float t = extending ? through : 0.5 * (s.first + s.last);
 #endif
     ivec3 cell = cell_at(ray, t);
-    bool asked = seeking && t >= volume.walk.until;
+    bool asked = (seeking || extending) && t >= volume.walk.until;
     float from, until;
     bool told = skip_step(ray, cell, t, asked, volume.walk.skip, from, until);
     volume.walk.from = told ? from : volume.walk.from;
     volume.walk.until = told ? until : volume.walk.until;
-    bool answered = told || (seeking && !asked);
+    bool answered = told || ((seeking || extending) && !asked);
     bool matters = answered && t >= volume.walk.from;
 #ifdef COST
     volume.walk.intervals += told && from < until ? 1u : 0u;
-    volume.walk.steps += seeking ? 1u : 0u;
+    volume.walk.steps += seeking || extending ? 1u : 0u;
 #endif
-    // All from t until `leave` is empty, unless something is here.
+    // All from t until `leave` is empty, unless something is here: then all until `reach` may matter.
 #ifdef CELL_TEST
     uvec2 brick = occupancy_brick(cell);
     uint planes = occupied_planes(brick, cell);
-    bool here = matters && occupied(planes, cell);
     int size = empty_cube(brick, planes, cell);
+    bool here = matters && (extending ? size < 4 : occupied(planes, cell));
     float leave = exit_time(ray, cell & ~(size - 1), size);
     leave = matters ? min(leave, volume.walk.until) : volume.walk.from;
+    float reach = min(exit_time(ray, cell & ~3, 4), volume.walk.until);
 #else
     bool here = matters;
     float leave = volume.walk.from;
+    float reach = volume.walk.until;
 #endif
 #ifdef STRETCHES
-    here = here || (answered && leave < s.last);
+    here = here || (seeking && answered && leave < s.last);
 #endif
-    found = found || here;
-    bool move = answered && !found;
+    bool move = seeking && answered && !here;
     volume.reached = move && s.cut ? max(volume.reached, s.last) : volume.reached;
     volume.k = move ? max(stretch_before(ray, volume, leave), volume.k + (s.cut ? 0.0 : 1.0)) : volume.k;
 #ifdef PRE_INTEGRATED
     volume.have = volume.have && !move;
 #endif
+    found = found || (seeking && here);
+    extending = (extending ? here || !answered : seeking && here) && !(here && (reach <= t || reach >= s.first + AHEAD * volume.dt));
+    through = here ? reach : through;
     seeking = seeking && !found && stretches_left(ray, volume, end);
-  } while (break_at == 0u ? seeking : subgroupBallotBitCount(subgroupBallot(seeking)) > break_at);
+  } while (break_at == 0u ? seeking || extending : subgroupBallotBitCount(subgroupBallot(seeking || extending)) > break_at);
+  volume.known = found ? max(floor((through - ray.begin) * volume.inverse + volume.shift + 0.5), volume.k + 1.0) : volume.known;
   return found;
 #endif
 }
@@ -232,6 +259,15 @@ Look look(Ray ray, VolumeRay volume, float t) {
   return seen;
 }
 
+// Whether the next stretch, or the rest of this one, may matter without being asked for.
+bool within_known(VolumeRay volume) {
+#ifdef ADAPTIVE
+  return volume.parts > 0 || volume.k < volume.known;
+#else
+  return volume.k < volume.known;
+#endif
+}
+
 // The opacity of one of 1, 2, 4 or 8 equal parts of a stretch, with its colour.
 vec4 part_of(vec4 stretch, int parts) {
   float keep = 1.0 - stretch.a;
@@ -265,59 +301,77 @@ float look_at(VolumeRay volume, Stretch s) {
 #endif
 }
 
+// Evaluates the spline once where `ready` and adds what that tells.
+void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout Seen seen) {
+  Stretch s = stretch_left(ray, volume, end);
+  float t = look_at(volume, s);
+#ifdef BRICKS
+  ivec3 cell = cell_at(ray, t);
+  if (ready && !brick_resident(cell)) {
+    request_brick(cell);
+    volume.parked = true;
+  }
+  ready = ready && !volume.parked;
+#endif
+  Look at = look(ray, volume, t);
+#if defined(PRE_INTEGRATED)
+  vec4 stretch = pre_integrated(volume.front, at.place);
+  bool here = ready && volume.have;
+  bool ended = here;
+  volume.have = volume.have || ready;
+  volume.front = ready ? at.place : volume.front;
+#elif defined(ADAPTIVE)
+  bool parted = volume.parts > 1;
+  vec4 stretch = part_of(classified(at.place), volume.parts);
+  float finest = parameters.modulation.w;  // entries a part may go along
+  int parts = at.change <= finest ? 1 : at.change <= 2.0 * finest ? 2 : at.change <= 4.0 * finest ? 4 : 8;
+  bool here = ready && (parted || parts == 1);
+  bool ended = here && (!parted || volume.part + 1 == volume.parts);
+  volume.part = ready && parted ? volume.part + 1 : ready ? 0 : volume.part;
+  volume.parts = ended ? 0 : ready && !parted ? parts : volume.parts;
+#else
+  vec4 stretch = classified(at.place);
+  bool here = ready;
+  bool ended = ready;
+#endif
+  stretch.rgb *= at.light;
+#ifdef CUT_ANYWHERE
+  stretch = share_of(stretch, s.part * at.modulation);
+#else
+  // The ray's last stretch alone may be cut: it is seen when the ray has ended.
+  bool last = here && s.cut;
+  volume.last = last ? stretch : volume.last;
+  volume.last_part = last ? s.part : volume.last_part;
+  here = here && !s.cut;
+#endif
+  see_stretch(seen, volume, stretch, s.last, here);
+#ifdef COST
+  volume.evaluations += ready ? 1u : 0u;
+#endif
+  volume.reached = ended && s.cut ? s.last : volume.reached;
+  volume.k += ended && !s.cut ? 1.0 : 0.0;
+}
+
 // Where `wanted`, integrates until `end`, or until nothing more can be seen, or (`parked`) until a brick is missing.
 void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Seen seen) {
   bool busy = wanted && !opaque(seen) && stretches_left(ray, volume, end);
   uint lanes = subgroupBallotBitCount(subgroupBallot(busy));
   do {
-#ifdef ADAPTIVE
-    bool found = find_stretch(ray, volume, end, busy && volume.parts == 0, lanes / 4u) || (busy && volume.parts > 0);
-#else
-    bool found = find_stretch(ray, volume, end, busy, lanes / 4u);
-#endif
-    Stretch s = stretch_left(ray, volume, end);
-    float t = look_at(volume, s);
+    bool ready = busy && within_known(volume);
+    ready = find_stretch(ray, volume, end, busy && !ready, lanes / 4u) || ready;
+    uint most = subgroupBallotBitCount(subgroupBallot(ready));
+    do {
+      look_once(ray, volume, end, ready, seen);
+      busy = busy && !opaque(seen) && stretches_left(ray, volume, end);
 #ifdef BRICKS
-    ivec3 cell = cell_at(ray, t);
-    if (found && !brick_resident(cell)) {
-      request_brick(cell);
-      volume.parked = true;
-    }
-    found = found && !volume.parked;
+      busy = busy && !volume.parked;
 #endif
-    Look at = look(ray, volume, t);
-#if defined(PRE_INTEGRATED)
-    vec4 stretch = pre_integrated(volume.front, at.place);
-    bool here = found && volume.have;
-    bool ended = here;
-    volume.have = volume.have || found;
-    volume.front = found ? at.place : volume.front;
-#elif defined(ADAPTIVE)
-    bool parted = volume.parts > 1;
-    vec4 stretch = part_of(classified(at.place), volume.parts);
-    float finest = parameters.modulation.w;  // entries a part may go along
-    int parts = at.change <= finest ? 1 : at.change <= 2.0 * finest ? 2 : at.change <= 4.0 * finest ? 4 : 8;
-    bool here = found && (parted || parts == 1);
-    bool ended = here && (!parted || volume.part + 1 == volume.parts);
-    volume.part = found && parted ? volume.part + 1 : found ? 0 : volume.part;
-    volume.parts = ended ? 0 : found && !parted ? parts : volume.parts;
-#else
-    vec4 stretch = classified(at.place);
-    bool here = found;
-    bool ended = found;
-#endif
-    stretch = share_of(stretch, s.part * at.modulation);
-    stretch.rgb *= at.light;
-    see_stretch(seen, volume, stretch, s.last, here);
-#ifdef COST
-    volume.evaluations += found ? 1u : 0u;
-#endif
-    volume.reached = ended && s.cut ? s.last : volume.reached;
-    volume.k += ended && !s.cut ? 1.0 : 0.0;
-    busy = busy && !opaque(seen) && stretches_left(ray, volume, end);
-#ifdef BRICKS
-    busy = busy && !volume.parked;
-#endif
+      ready = ready && busy && within_known(volume);
+      lanes = subgroupBallotBitCount(subgroupBallot(ready));
+    } while (2u * lanes > most);
     lanes = subgroupBallotBitCount(subgroupBallot(busy));
   } while (lanes > 0u);
+#ifndef CUT_ANYWHERE
+  see_stretch(seen, volume, share_of(volume.last, volume.last_part), ray.end, volume.last_part > 0.0 && !opaque(seen));
+#endif
 }

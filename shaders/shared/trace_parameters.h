@@ -33,7 +33,7 @@ using glm::ivec4;
 using glm::vec4;
 struct TraceParameters {
 #else
-layout(std140, binding = 0) uniform TraceParameters {
+struct Parameters {
 #endif
   vec4 forward_hi, forward_lo, right_hi, right_lo, up_hi, up_lo;
   vec4 base_hi, base_lo;
@@ -58,6 +58,10 @@ layout(std140, binding = 0) uniform TraceParameters {
 static_assert(sizeof(TraceParameters) == 496);
 }  // namespace quincunx
 #else
-}
-parameters;
+};
+layout(std140, binding = 0) uniform TraceParameters {
+  Parameters all;
+} uniforms;
+// A copy made once, as a kernel begins: lavapipe gathers what is read of a uniform block inside a loop lane by lane, each time.
+Parameters parameters = uniforms.all;
 #endif

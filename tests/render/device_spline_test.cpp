@@ -105,7 +105,7 @@ class DeviceSplineTest : public DeviceTest, public ::testing::WithParamInterface
     const TraceParameters p = parameters();
     const gpu::Buffer out = gpu::create_buffer(device, questions.size() * sizeof(Answer), gpu::BufferUse::storage, "answers");
     gpu::dispatch(device, pipeline,
-                  {{"parameters", fill(std::span(&p, 1), gpu::BufferUse::uniform, "parameters")},
+                  {{"uniforms", fill(std::span(&p, 1), gpu::BufferUse::uniform, "parameters")},
                    {"coefficients0", fill(std::span(coefficients_.data), gpu::BufferUse::texel, "coefficients")},
                    {"Questions", fill(std::span(questions), gpu::BufferUse::storage, "questions")},
                    {"Answers", out}},

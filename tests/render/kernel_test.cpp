@@ -122,7 +122,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
       EXPECT_EQ(names.count(part.witness) == 1, part.feature.compiled) << part.feature.name << ": " << part.witness;
       EXPECT_FALSE(part.feature.why.empty());
     }
-    std::set<std::string> expected{"parameters", "Color", "Hit", "Rays"};
+    std::set<std::string> expected{"uniforms", "Color", "Hit", "Rays"};
     expected.merge(buffers_of(v.structure));
     if (v.surfaces && !v.stub) expected.insert("Isosurfaces");
     if (v.volume && !v.stub) expected.insert("transferTable");
@@ -138,8 +138,8 @@ TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
   const gpu::Reflection reflection = gpu::reflect(gpu::compile(kernel_files(v), kernel_source(v, Pass::seek)));
   std::map<std::string, std::size_t> offsets;
   for (const gpu::BlockMember& m : reflection.members)
-    if (m.block == "parameters" || m.block == "TraceParameters") offsets[m.name] = m.offset;
-#define MEMBER(name) {#name, offsetof(TraceParameters, name)}
+    if (m.block == "uniforms") offsets[m.name] = m.offset;
+#define MEMBER(name) {"all." #name, offsetof(TraceParameters, name)}
   const std::map<std::string, std::size_t> expected{
       MEMBER(forward_hi),
       MEMBER(forward_lo),

@@ -160,7 +160,7 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   std::vector<std::uint32_t> tally(3 * std::size_t(rays));
   const gpu::Buffer tallies = filled(std::as_bytes(std::span(tally)), gpu::BufferUse::storage, "tally");
   gpu::Resources resources = skipping.resources();
-  resources.emplace_back("parameters", filled(std::as_bytes(std::span(&parameters, 1)), gpu::BufferUse::uniform, "parameters"));
+  resources.emplace_back("uniforms", filled(std::as_bytes(std::span(&parameters, 1)), gpu::BufferUse::uniform, "parameters"));
   resources.emplace_back("Isosurfaces", filled(std::as_bytes(std::span(isosurface)), gpu::BufferUse::storage, "isosurfaces"));
   resources.emplace_back("coefficients0", filled(std::as_bytes(std::span(coefficients.data)), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT));
   resources.emplace_back("Tally", tallies);
