@@ -21,7 +21,8 @@ struct VolumeRay {
   float shift;           // by which part of a stretch the first one begins before the ray
   float k;               // the next stretch
   float reached;         // what is before has been integrated
-  float known;           // stretches before this one may all matter: nothing is to be asked
+  float through;         // all that is before, from where something was found, may matter
+  float known;           // the first stretch behind it: those before need not be asked for
 #ifdef PRE_INTEGRATED
   bool have;             // the value where stretch k goes on is known:
   float front;           // its place in the table
@@ -100,6 +101,7 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
 #endif
   volume.reached = ray.begin;
   volume.k = stretch_before(ray, volume, walk.t);
+  volume.through = ray.begin;
   volume.known = volume.k;
 #ifdef PRE_INTEGRATED
   volume.have = false;
@@ -146,13 +148,12 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
 #else
   bool found = false, extending = false;
   bool seeking = wanted && stretches_left(ray, volume, end);
-  float through = ray.begin;  // of a stretch found: all until then may matter
   do {
     Stretch s = stretch_left(ray, volume, end);
 #ifdef STRETCHES
-    float t = extending ? through : s.first;
+    float t = extending ? volume.through : s.first;
 #else
-    float t = extending ? through : 0.5 * (s.first + s.last);
+    float t = extending ? volume.through : 0.5 * (s.first + s.last);
 #endif
     ivec3 cell = cell_at(ray, t);
     bool asked = (seeking || extending) && t >= volume.walk.until;
@@ -161,7 +162,8 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
     volume.walk.from = told ? from : volume.walk.from;
     volume.walk.until = told ? until : volume.walk.until;
     bool answered = told || ((seeking || extending) && !asked);
-    bool matters = answered && t >= volume.walk.from;
+    // Its last answer may be of what is ahead of the stretch.
+    bool matters = answered && (t >= volume.walk.from || t < volume.through);
 #ifdef COST
     volume.walk.intervals += told && from < until ? 1u : 0u;
     volume.walk.steps += seeking || extending ? 1u : 0u;
@@ -172,9 +174,9 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
     uint planes = occupied_planes(brick, cell);
     int size = empty_cube(brick, planes, cell);
     bool here = matters && (extending ? size < 4 : occupied(planes, cell));
-    float leave = exit_time(ray, cell & ~(size - 1), size);
-    leave = matters ? min(leave, volume.walk.until) : volume.walk.from;
-    float reach = min(exit_time(ray, cell & ~3, 4), volume.walk.until);
+    size = here ? 4 : size;
+    float reach = min(exit_time(ray, cell & ~(size - 1), size), volume.walk.until);
+    float leave = matters ? reach : volume.walk.from;
 #else
     bool here = matters;
     float leave = volume.walk.from;
@@ -191,10 +193,11 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
 #endif
     found = found || (seeking && here);
     extending = (extending ? here || !answered : seeking && here) && !(here && (reach <= t || reach >= s.first + AHEAD * volume.dt));
-    through = here ? reach : through;
+    volume.through = here ? max(reach, volume.through) : volume.through;
     seeking = seeking && !found && stretches_left(ray, volume, end);
   } while (break_at == 0u ? seeking || extending : subgroupBallotBitCount(subgroupBallot(seeking || extending)) > break_at);
-  volume.known = found ? max(floor((through - ray.begin) * volume.inverse + volume.shift + 0.5), volume.k + 1.0) : volume.known;
+  if (extending) volume.walk.skip = begin_skip();  // its search for what is ahead is given up
+  volume.known = found ? max(floor((volume.through - ray.begin) * volume.inverse + volume.shift + 0.5), volume.k + 1.0) : volume.known;
   return found;
 #endif
 }
