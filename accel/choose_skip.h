@@ -9,8 +9,9 @@
 namespace quincunx {
 
 /// What the choice depends on beside the blocks.
-struct SkipDevice {
-  bool cpu = true;  ///< lanes of vector instructions (lavapipe) instead of a GPU's
+struct SkipSetting {
+  bool cpu = true;      ///< lanes of vector instructions (lavapipe) instead of a GPU's
+  bool volume = false;  ///< stretches of a volume are looked at, and no surface
 };
 
 struct SkipChoice {
@@ -26,6 +27,6 @@ bool is_open(const SkipConfig& config);
 
 /// Fills in what `wanted` leaves open; docs/performance.md has the measurements behind the rules. `blocks` are of kChoiceBlock cells,
 /// classified for the scene; they are not looked at where `wanted` names a structure.
-SkipChoice choose_skip(const SkipConfig& wanted, const Classification& blocks, const SkipDevice& device);
+SkipChoice choose_skip(const SkipConfig& wanted, const Classification& blocks, const SkipSetting& setting);
 
 }  // namespace quincunx

@@ -168,7 +168,7 @@ SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, 
   if (wanted.structure == "none" || !is_open(wanted)) return {wanted, ""};
   prepare_coefficients(stats, progress);
   prepare_bounds(request, stats, progress);
-  return skipping_->choose(wanted, *bounds_, seen_values(request.scene), stats);
+  return skipping_->choose(wanted, *bounds_, seen_values(request.scene), request.scene.volume && visible_surfaces(request.scene).empty(), stats);
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
@@ -257,7 +257,7 @@ double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, cons
     const bool waits = bricks_ && pass.pass != Pass::traverse;
     do {
       if (waits) bricks_->clear_requests();
-      double one = gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group); if (getenv("QP")) fprintf(stderr, "enter %.1f pass %.1f rays %u\n", ms, one, rays); ms += one;
+      ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
     } while (waits && bricks_->serve(lattice_eye(scene), progress));
   }
   return ms;

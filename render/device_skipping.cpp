@@ -59,11 +59,11 @@ const Classification& DeviceSkipping::classified(VolumeBounds& bounds, int block
   return made;
 }
 
-SkipChoice DeviceSkipping::choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, RenderStats& stats) {
+SkipChoice DeviceSkipping::choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, bool volume, RenderStats& stats) {
   set_ranges(ranges, wanted.range_query);
   const bool looks = wanted.structure == "auto";
   const int block = std::max(kChoiceBlock, bounds.finest());
-  SkipChoice choice = choose_skip(wanted, looks ? classified(bounds, block, stats) : Classification{}, {.cpu = gpu::info(device_).type == "CPU"});
+  SkipChoice choice = choose_skip(wanted, looks ? classified(bounds, block, stats) : Classification{}, {.cpu = gpu::info(device_).type == "CPU", .volume = volume});
   choice.config.block = std::max(choice.config.block, wanted.block == 0 ? bounds.finest() : 1);
   return choice;
 }

@@ -22,8 +22,9 @@ class DeviceSkipping {
  public:
   explicit DeviceSkipping(gpu::Device& device) : device_(device) {}
 
-  /// `wanted` with nothing left open, for a volume's bounds (the same at every call) and the values that can be seen, and why.
-  SkipChoice choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, RenderStats& stats);
+  /// `wanted` with nothing left open, for a volume's bounds (the same at every call) and the values that can be seen, of a volume alone where
+  /// `volume`, and why.
+  SkipChoice choose(const SkipConfig& wanted, VolumeBounds& bounds, std::span<const ValueRange> ranges, bool volume, RenderStats& stats);
 
   /// Builds and uploads what `config`, in which nothing is open, needs for `ranges` and rays from `eye` (lattice coordinates), keeping what
   /// still holds from the call before: the structure while the set of active blocks stays, their classification while the ranges do.

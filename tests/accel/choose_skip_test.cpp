@@ -40,6 +40,13 @@ TEST(ChooseSkip, TakesTheCheapestStepWhereNearlyEveryBlockMayHoldASurface) {
   EXPECT_EQ(choose_skip({}, blocks_with(0.8), {}).config.structure, "distance");
 }
 
+TEST(ChooseSkip, AsksNothingInsideLargeBoxesOfAVolumeThatIsFull) {
+  const SkipChoice full = choose_skip({}, blocks_with(1.0), {.volume = true});
+  EXPECT_EQ(skip_label(full.config), "kdtree:shallow");
+  EXPECT_FALSE(full.config.cell_test);
+  EXPECT_EQ(choose_skip({}, blocks_with(0.8), {.volume = true}).config, choose_skip({}, blocks_with(0.8), {}).config);
+}
+
 TEST(ChooseSkip, KeepsWhatIsGiven) {
   const Classification blocks = blocks_with(0.25);
   SkipConfig wanted{.structure = "bvh", .cell_test = false, .clustering = Clustering::boxes};

@@ -97,7 +97,7 @@ TEST_F(Errors, NameThePlaceOfSamplesThatAreNotFinite) {
   std::get<std::vector<float>>(volume.samples).back() = std::numeric_limits<float>::quiet_NaN();
   const std::string nan = folder / "nan.nrrd";
   write_volume(volume, nan);
-  expect_refused({"render", nan, "-o", out, "--iso", "3"}, {"nan.nrrd", "1 of 48", "coset 1, index (1, 2, 3)"});
+  expect_refused({"render", nan, "-o", out, "--iso", "3"}, {"nan.nrrd", "1 NaN or infinite of 48", "coset 1, index (1, 2, 3)"});
   expect_refused({"eval", nan, "--points", points}, {"nan.nrrd"});
 }
 
