@@ -52,8 +52,7 @@ std::uint64_t coefficient_bytes(const Volume& volume) {
   for (const std::string_view name : spline_names()) {
     const auto spline = make_spline(name);
     if (spline->lattice() != volume.lattice) continue;
-    const glm::dvec3 padded(volume.extents + std::int64_t(2 * spline->apron()));
-    return std::uint64_t(double(coset_count(volume.lattice)) * padded.x * padded.y * padded.z * sizeof(float));
+    return coefficient_count(volume.lattice, volume.extents, spline->apron()) * sizeof(float);
   }
   return 0;
 }

@@ -13,10 +13,12 @@
 #include "app/interrupt.h"
 #include "app/render_flags.h"
 #include "app/render_report.h"
+#include "app/values.h"
 #include "app/volume_input.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "io/sample_file.h"
+#include "io/volume_file.h"
 
 namespace quincunx {
 namespace {
@@ -72,13 +74,27 @@ void print_summary(const RenderFlags& flags, const Outcome& outcome) {
 struct Opened {
   Volume volume;
   std::shared_ptr<const SampleSource> source;
+  Renderer::Config config;  ///< with a pool where there is a source
   double read_ms = 0.0;
 };
+
+/// The size of the pool: the one that was asked for, or one because the volume does not fit otherwise, which a note says.
+std::optional<std::uint64_t> pool_bytes(const RenderFlags& flags) {
+  if (flags.config.pool_bytes) return flags.config.pool_bytes;
+  const std::string why = why_not_whole(flags.device, read_volume_header(flags.volume), flags.config);
+  if (why.empty()) return std::nullopt;
+  const std::uint64_t bytes = default_pool_bytes(flags.device);
+  if (flags.verbosity == Verbosity::normal)
+    fmt::print(stderr, "note: {}: {}: rendered through a pool of {} (--pool)\n", flags.volume, why, readable_bytes(double(bytes)));
+  return bytes;
+}
 
 Opened open_volume(const RenderFlags& flags, ProgressBar& bar) {
   const Clock::time_point start = Clock::now();
   Opened opened;
-  if (flags.config.pool_bytes) {
+  opened.config = flags.config;
+  opened.config.pool_bytes = pool_bytes(flags);
+  if (opened.config.pool_bytes) {
     opened.source = std::make_shared<SampleFile>(flags.volume, SampleFile::Config{flags.scratch}, bar.stage("unpacking"));
     opened.volume = opened.source->header();
   } else {
@@ -108,8 +124,8 @@ void render(const RenderFlags& flags) {
   ProgressBar bar(flags.verbosity);
   const Opened opened = open_volume(flags, bar);
   const Renderer::Request request = make_request(flags, opened.volume);
-  const auto renderer = opened.source ? make_renderer(flags.device, opened.source, flags.volume, flags.config)
-                                      : make_renderer(flags.device, opened.volume, flags.config);
+  const auto renderer = opened.source ? make_renderer(flags.device, opened.source, flags.volume, opened.config)
+                                      : make_renderer(flags.device, opened.volume, opened.config);
   stop_if_interrupted();
   Json printed = Json::object();
   Outcome outcome;

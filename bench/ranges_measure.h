@@ -14,11 +14,15 @@ constexpr std::array<RangeQueryKind, 3> kRangeQueryKinds{RangeQueryKind::interva
 /// "intervals", "table", "irt".
 std::string_view range_query_name(RangeQueryKind kind);
 
+/// Blocks of the grid that is pre-classified: 64^3.
+constexpr std::size_t kGridBlocks = 64 * 64 * 64;
+
 /// One kind of query over one row.
 struct RangeCost {
   std::size_t bytes = 0;
   std::vector<double> build_ms;  ///< one a round
   std::vector<double> query_ms;  ///< a million of them, one a round
+  std::vector<double> grid_ms;   ///< of a pre-classified grid of kGridBlocks blocks: the query built, and asked for each; one a round
 };
 
 /// What was measured on one row.

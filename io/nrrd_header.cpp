@@ -136,6 +136,17 @@ std::string format_note(const std::string& key, const std::string& value) {
 
 }  // namespace
 
+Volume volume_of(const NrrdHeader& header) {
+  Volume volume{header.lattice, header.extents, header.world, {}, header.notes};
+  switch (header.type) {
+    case SampleType::uint8: volume.samples = std::vector<std::uint8_t>(); break;
+    case SampleType::int16: volume.samples = std::vector<std::int16_t>(); break;
+    case SampleType::uint16: volume.samples = std::vector<std::uint16_t>(); break;
+    case SampleType::float32: volume.samples = std::vector<float>(); break;
+  }
+  return volume;
+}
+
 NrrdHeader interpret_nrrd(const NrrdText& text) {
   NrrdHeader header;
   header.type = interpret_type(text);

@@ -35,6 +35,9 @@ struct NrrdHeader {
   std::uint64_t data_offset = 0;  ///< of an attached header's data in the file
 };
 
+/// The header as a volume without samples.
+Volume volume_of(const NrrdHeader& header);
+
 /// Interprets a header. Throws InputError naming the file, the field, what was found and what was expected.
 NrrdHeader interpret_nrrd(const NrrdText& text);
 

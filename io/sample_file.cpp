@@ -14,18 +14,6 @@ namespace {
 
 constexpr std::uint64_t kWorthSkipping = 4096;  // bytes between two rows: fewer are read faster than another read begins
 
-/// The header as a volume without samples.
-Volume volume_of(const NrrdHeader& header) {
-  Volume volume{header.lattice, header.extents, header.world, {}, header.notes};
-  switch (header.type) {
-    case SampleType::uint8: volume.samples = std::vector<std::uint8_t>(); break;
-    case SampleType::int16: volume.samples = std::vector<std::int16_t>(); break;
-    case SampleType::uint16: volume.samples = std::vector<std::uint16_t>(); break;
-    case SampleType::float32: volume.samples = std::vector<float>(); break;
-  }
-  return volume;
-}
-
 /// Reads `rows` rows of `bytes`, `pitch` apart, one after another into `to`.
 void read_rows(const InputFile& file, std::uint64_t position, std::uint64_t rows, std::uint64_t bytes, std::uint64_t pitch, std::byte* to,
                std::vector<std::byte>& scratch) {

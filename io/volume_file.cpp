@@ -10,11 +10,7 @@ Volume read_volume(const std::string& path, const Progress& progress) {
   InputFile file(path);
   const NrrdHeader header = interpret_nrrd(read_nrrd_text(file));
 
-  Volume volume;
-  volume.lattice = header.lattice;
-  volume.extents = header.extents;
-  volume.world = header.world;
-  volume.notes = header.notes;
+  Volume volume = volume_of(header);
   if (header.data_file.empty()) {
     volume.samples = read_nrrd_samples(file, header, progress);
   } else {
@@ -23,6 +19,11 @@ Volume read_volume(const std::string& path, const Progress& progress) {
   }
   check_volume(volume, path);
   return volume;
+}
+
+Volume read_volume_header(const std::string& path) {
+  InputFile file(path);
+  return volume_of(interpret_nrrd(read_nrrd_text(file)));
 }
 
 }  // namespace quincunx

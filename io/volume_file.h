@@ -15,6 +15,9 @@ namespace quincunx {
 /// Throws InputError naming the file, what was found and what was expected.
 Volume read_volume(const std::string& path, const Progress& progress = {});
 
+/// The volume without its samples (`samples` is empty but of their type), of which only the header is read. Throws as read_volume does of headers.
+Volume read_volume_header(const std::string& path);
+
 /// How write_volume packs the samples.
 enum class Encoding { raw, gzip };
 

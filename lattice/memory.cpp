@@ -28,8 +28,10 @@ std::uint64_t checked_sample_count(LatticeKind lattice, const Extents& extents, 
   return count;
 }
 
+std::uint64_t memory_bytes() { return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGE_SIZE)); }
+
 void check_fits_memory(std::uint64_t bytes, std::string_view what) {
-  const std::uint64_t memory = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGE_SIZE));
+  const std::uint64_t memory = memory_bytes();
   if (bytes <= memory) return;
   throw InputError(fmt::format("{}: needs {:.1f} GiB, expected at most this machine's memory of {:.1f} GiB", what,
                                double(bytes) / double(1 << 30), double(memory) / double(1 << 30)));

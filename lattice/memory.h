@@ -12,6 +12,9 @@ namespace quincunx {
 /// the samples' bytes are fewer than 2^62.
 std::uint64_t checked_sample_count(LatticeKind lattice, const Extents& extents, SampleType type, std::string_view what);
 
+/// This machine's.
+std::uint64_t memory_bytes();
+
 /// Throws InputError, naming `what`, where `bytes` are more than this machine's memory.
 void check_fits_memory(std::uint64_t bytes, std::string_view what);
 

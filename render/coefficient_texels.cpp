@@ -12,20 +12,26 @@ namespace quincunx {
 namespace {
 
 constexpr std::uint64_t kMostBuffers = 8;  // bindings of coefficients.glsl
+constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::int32_t>::max();  // that kernels count
+
+/// Elements of each of several buffers: a power of two.
+std::uint64_t elements_of_each(std::uint64_t texel_elements) { return std::bit_floor(texel_elements); }
 
 }  // namespace
 
 TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, const std::string& device) {
-  if (numbers > std::uint64_t(std::numeric_limits<std::int32_t>::max()))
+  if (numbers > kMostNumbers)
     throw InputError(fmt::format("volume: {} coefficients with their border; expected at most 2^31 - 1, or a pool of bricks (--pool)", numbers));
   if (numbers <= texel_elements) return {};
-  const int shift = std::bit_width(texel_elements) - 1;
+  const int shift = std::countr_zero(elements_of_each(texel_elements));
   const std::uint64_t buffers = (numbers + (std::uint64_t(1) << shift) - 1) >> shift;
   if (buffers > kMostBuffers)
     throw gpu::DeviceError(fmt::format("{}: {} coefficients need {} texel buffers of 2^{} elements; expected at most {}, or a pool of bricks (--pool)",
                                        device, numbers, buffers, shift, kMostBuffers));
   return {int(buffers), shift};
 }
+
+std::uint64_t most_coefficients(std::uint64_t texel_elements) { return std::min(kMostNumbers, kMostBuffers * elements_of_each(texel_elements)); }
 
 CoefficientTexels::CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label)
     : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)) {

@@ -17,6 +17,9 @@ struct TexelLayout {
 /// Throws InputError where there are more than 2^31 - 1, DeviceError, naming `device`, where they do not fit the buffers that kernels read.
 TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, const std::string& device);
 
+/// The most numbers that texel_layout takes.
+std::uint64_t most_coefficients(std::uint64_t texel_elements);
+
 class CoefficientTexels {
  public:
   CoefficientTexels() = default;

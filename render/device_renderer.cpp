@@ -31,6 +31,11 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
   return std::as_bytes(std::span<const T>(v));
 }
 
+/// Whether both are looked up in the same table.
+bool same_table(const DirectVolume& a, const DirectVolume& b) {
+  return a.function == b.function && a.classify == b.classify && a.table_entries() == b.table_entries() && a.step == b.step;
+}
+
 }  // namespace
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
@@ -61,8 +66,7 @@ TexelLayout DeviceRenderer::coefficient_layout() const {
   if (bricks_) return bricks_->texels();
   if (coefficients_) return texels_.layout();
   check_cells();
-  const glm::i64vec3 p = volume_.extents + std::int64_t(2 * spline_->apron());
-  return texel_layout(std::uint64_t(coset_count(volume_.lattice)) * p.x * p.y * p.z, limits_.texel_elements, gpu::info(device_).name);
+  return texel_layout(coefficient_count(volume_.lattice, volume_.extents, spline_->apron()), limits_.texel_elements, gpu::info(device_).name);
 }
 
 void DeviceRenderer::check_bricks(const Scene& scene) const {
@@ -184,6 +188,8 @@ void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfac
 void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stats) {
   if (!scene.volume) return;
   const DirectVolume& v = *scene.volume;
+  if (tabled_ && same_table(*tabled_, v)) return;
+  tabled_.reset();
   const double cell = cell_length(coefficients_->world), length = v.step * cell;
   const Stopwatch watch;
   const std::vector<glm::vec4> entries = v.classify == Classify::post ? bake(v.function, v.table_entries(), length, cell).entries
@@ -191,6 +197,7 @@ void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stat
   stats.table_ms = watch.ms();
   transfer_table_ = gpu::create_filled(device_, bytes_of(entries), gpu::BufferUse::texel, "transfer table", VK_FORMAT_R32G32B32A32_SFLOAT);
   stats.upload_ms += watch.ms() - stats.table_ms;
+  tabled_ = v;
 }
 
 // ---- pictures ----

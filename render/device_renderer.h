@@ -48,6 +48,7 @@ class DeviceRenderer final : public Renderer {
   /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
+  /// Makes the table anew where anything that it depends on has changed.
   void upload_transfer_table(const Scene& scene, RenderStats& stats);
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
@@ -83,6 +84,7 @@ class DeviceRenderer final : public Renderer {
   std::optional<VolumeBounds> bounds_;
   std::optional<DeviceSkipping> skipping_;
   gpu::Buffer isosurfaces_, transfer_table_, parameters_;
+  std::optional<DirectVolume> tabled_;  ///< what transfer_table_ was made for
 };
 
 }  // namespace quincunx

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "gpu/gpu.h"
 #include "lattice/error.h"
+#include "lattice/memory.h"
+#include "render/coefficient_texels.h"
 #include "render/device_renderer.h"
 #include "render/reference_renderer.h"
 
@@ -28,7 +33,38 @@ std::shared_ptr<KernelCache> open_kernels(const std::string& device, const Rende
   return std::make_shared<KernelCache>(gpu::open_device(choice));
 }
 
+gpu::DeviceInfo device_meant(const std::string& device) {
+  const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
+  return devices[gpu::choose_device(devices, device)];
+}
+
+double gib(std::uint64_t bytes) { return double(bytes) / double(1 << 30); }
+
 }  // namespace
+
+std::string why_not_whole(const std::string& device, const Volume& header, const Renderer::Config& wanted) {
+  const Renderer::Config config = with_spline(wanted, header.lattice);
+  if (device == "cpu") return "";
+  const gpu::DeviceInfo info = device_meant(device);
+  const std::uint64_t numbers = coefficient_count(header.lattice, header.extents, make_spline(config.spline)->apron());
+  const std::uint64_t most = most_coefficients(info.max_texel_buffer_elements);
+  if (numbers > most) return fmt::format("{} coefficients are more than the {} that {} takes", numbers, most, info.name);
+
+  // Samples, coefficients, which a CPU's device holds a second time, and bounds of cells: two 16-bit numbers each.
+  const glm::i64vec3 cells = domain_max(header.lattice, header.extents);
+  const std::uint64_t copies = info.type == "CPU" ? 2 : 1;
+  const std::uint64_t bytes = std::uint64_t(coset_count(header.lattice) * header.extents.x * header.extents.y * header.extents.z) * sample_type_bytes(header.type()) +
+                              copies * numbers * sizeof(float) + std::uint64_t(cells.x * cells.y * cells.z) * 2 * sizeof(std::uint16_t);
+  const std::uint64_t memory = memory_bytes();
+  if (bytes > memory) return fmt::format("it needs {:.1f} GiB of this machine's memory, {:.1f} GiB", gib(bytes), gib(memory));
+  if (info.type != "CPU" && numbers * sizeof(float) > info.memory_bytes)
+    return fmt::format("{:.1f} GiB of coefficients are more than the {:.1f} GiB of {}", gib(numbers * sizeof(float)), gib(info.memory_bytes), info.name);
+  return "";
+}
+
+std::uint64_t default_pool_bytes(const std::string& device) {
+  return std::min(std::uint64_t(1) << 30, device_meant(device).memory_bytes / 2);
+}
 
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& wanted) {
   check_volume(volume, "volume");

@@ -77,6 +77,14 @@ class Renderer {
   virtual std::vector<Feature> explain(const Request& request) = 0;
 };
 
+/// Why the volume of which `header` tells lattice, extents and type cannot be rendered whole, its samples and coefficients in this machine's memory
+/// and on `device`, as half a sentence; empty where it can, and for "cpu". Throws InputError for a device that is not there or a spline of
+/// another lattice.
+std::string why_not_whole(const std::string& device, const Volume& header, const Renderer::Config& config);
+
+/// Bytes of a pool for such a volume, where none is asked for: 1 GiB, or half of the device's memory where that is less.
+std::uint64_t default_pool_bytes(const std::string& device);
+
 /// Makes a volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
 /// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples, or a device that is not there.

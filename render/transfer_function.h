@@ -15,9 +15,11 @@ struct TransferFunction {
   struct ColorPoint {
     double value;
     glm::dvec3 color;
+    bool operator==(const ColorPoint&) const = default;
   };
   struct OpacityPoint {
     double value, opacity;
+    bool operator==(const OpacityPoint&) const = default;
   };
   std::vector<ColorPoint> colors;        ///< at least one
   std::vector<OpacityPoint> opacities;   ///< at least two; all 0 is allowed: nothing is seen then
@@ -28,6 +30,7 @@ struct TransferFunction {
   /// First and last value of any point.
   double low() const;
   double high() const;
+  bool operator==(const TransferFunction&) const = default;
 };
 
 /// Throws InputError, which begins with `what` (a file, a flag), where a list is too short, values do not ascend, or a number is out

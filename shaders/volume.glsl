@@ -361,7 +361,7 @@ void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Se
   uint lanes = subgroupBallotBitCount(subgroupBallot(busy));
   do {
     bool ready = busy && within_known(volume);
-    ready = find_stretch(ray, volume, end, busy && !ready, lanes / 4u) || ready;
+    ready = find_stretch(ray, volume, end, busy && !ready, lanes / 2u) || ready;
     uint most = subgroupBallotBitCount(subgroupBallot(ready));
     do {
       look_once(ray, volume, end, ready, seen);

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "lattice/lattice.h"
 
 namespace quincunx {
+
+/// How many numbers the coefficients of a volume are, with an apron of so many samples on every side.
+inline std::uint64_t coefficient_count(LatticeKind lattice, const Extents& extents, int apron) {
+  const glm::i64vec3 padded = extents + std::int64_t(2 * apron);
+  return std::uint64_t(coset_count(lattice)) * std::uint64_t(padded.x) * std::uint64_t(padded.y) * std::uint64_t(padded.z);
+}
 
 /// Spline coefficients on a lattice, padded on every side of every coset by `apron` samples that repeat the
 /// border (each index of each coset clamped), so that no evaluation inside the domain needs to clamp.

@@ -114,6 +114,13 @@ TEST_F(LargeRender, ShowsIsosurfacesWhereTheyAre) {
   EXPECT_GT(*std::min_element(hits.begin(), hits.end()), 50);
 }
 
+TEST_F(LargeRender, GoesThroughAPoolWithoutBeingToldTo) {
+  const Outcome outcome = run({"render", volume, "-o", folder / "x.png", "--iso", fmt::format("{}", kIsovalue), "--block", "16", "--size", "64", "64"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("rendered through a pool of 1.0 GiB (--pool)"), std::string::npos) << outcome.err;
+  EXPECT_LT(double(outcome.peak_bytes), 2.0 * (1 << 30));
+}
+
 TEST_F(LargeRender, ShowsTheVolume) {
   json told;
   const Image image = same_pictures({"--tf", tf}, told);

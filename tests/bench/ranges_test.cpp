@@ -52,6 +52,7 @@ TEST(RangesMeasure, CountsWhatAScanOfTheRowCounts) {
     EXPECT_GT(cost.bytes, 0u);
     EXPECT_EQ(cost.build_ms.size(), 2u);
     EXPECT_EQ(cost.query_ms.size(), 2u);
+    EXPECT_EQ(cost.grid_ms.size(), 2u);
     EXPECT_GT(*std::ranges::min_element(cost.query_ms), 0.0);
   }
 }
@@ -59,11 +60,11 @@ TEST(RangesMeasure, CountsWhatAScanOfTheRowCounts) {
 TEST(RangesReport, ShowsMediansInMicrosecondsMillisecondsAndKibibytes) {
   RangesReport report{.rounds = 3, .machine = {"", "", "a processor", 3}, .lines = {}};
   report.lines.push_back({.entries = 512, .visible = 128, .queries = 1000, .met = 400, .costs = {}});
-  report.lines[0].costs = {RangeCost{2048, {0.002, 0.001, 0.005}, {3, 1, 2}}, RangeCost{32768, {0.25, 0.5, 0.75}, {4, 4, 4}},
-                           RangeCost{1024, {0.01, 0.01, 0.03}, {20, 10, 30}}};
+  report.lines[0].costs = {RangeCost{2048, {0.002, 0.001, 0.005}, {3, 1, 2}, {7, 6, 8}}, RangeCost{32768, {0.25, 0.5, 0.75}, {4, 4, 4}, {9, 9, 9}},
+                           RangeCost{1024, {0.01, 0.01, 0.03}, {20, 10, 30}, {11, 12, 12}}};
   const Table table = ranges_table(report);
   ASSERT_EQ(table.rows.size(), 1u);
-  EXPECT_THAT(table.rows[0], ElementsAre("512", "2", "500", "10", "2", "4", "20", "2", "32", "1"));
+  EXPECT_THAT(table.rows[0], ElementsAre("512", "2", "500", "10", "2", "4", "20", "7", "9", "12", "2", "32", "1"));
   EXPECT_EQ(table.headings.size(), table.rows[0].size());
   EXPECT_EQ(table.headings[2], "table, build us");
   EXPECT_THAT(ranges_caption(report), HasSubstr("40 % of which meet one of the 25 % of the entries"));
@@ -88,6 +89,7 @@ TEST(RangesProgram, MeasuresEveryNumberOfEntriesAndWritesThemDown) {
       const Json& cost = row[std::string(range_query_name(kind))];
       EXPECT_GT(cost["bytes"], 0);
       EXPECT_GT(cost["query_ms_per_million"]["median"], 0.0);
+      EXPECT_GT(cost["grid_ms"]["median"], cost["build_ms"]["p5"]);
       EXPECT_LE(cost["build_ms"]["p5"], cost["build_ms"]["p95"]);
     }
 }

@@ -141,6 +141,36 @@ TEST_F(DeviceRendererTest, AChangeOfIsovalueRebuildsNothingThatDoesNotDependOnIt
   EXPECT_EQ(third.upload_ms, 0.0);
 }
 
+TEST_F(DeviceRendererTest, AChangeOfTheTransferFunctionRebuildsNothingThatDoesNotDependOnIt) {
+  const Volume volume = bumpy_volume({16, 16, 16});
+  DeviceRenderer renderer(test_kernels(), volume, {});
+  Renderer::Request request = request_for(volume, 0.2);
+  request.skip = {.structure = "distance", .block = 4};
+  request.scene.isosurfaces.clear();
+  request.scene.volume = DirectVolume{};
+  request.scene.volume->function = {{{0.0, glm::dvec3(1.0)}}, {{0.1, 0.0}, {0.3, 0.5}}, 1.0};
+  RenderStats first, same, color, opacity;
+  renderer.render(request, first);
+  renderer.render(request, same);
+  EXPECT_GT(first.table_ms, 0.0);
+  EXPECT_GT(first.classify_ms, 0.0);
+  EXPECT_EQ(same.table_ms + same.classify_ms + same.build_ms + same.upload_ms, 0.0);
+  // Other colours: the table alone. A higher opacity of the same values: no other blocks.
+  request.scene.volume->function.colors[0].color = {0.5, 0.2, 0.1};
+  request.scene.volume->function.opacities[1].opacity = 0.7;
+  renderer.render(request, color);
+  EXPECT_GT(color.table_ms, 0.0);
+  EXPECT_GT(color.upload_ms, 0.0);
+  EXPECT_EQ(color.classify_ms + color.build_ms + color.bounds_ms + color.prefilter_ms + color.compile_ms, 0.0);
+  // Other values with opacity.
+  request.scene.volume->function.opacities[0].value = -0.4;
+  const Frame kept = renderer.render(request, opacity);
+  EXPECT_GT(opacity.table_ms, 0.0);
+  EXPECT_GT(opacity.classify_ms, 0.0);
+  EXPECT_EQ(opacity.bounds_ms + opacity.prefilter_ms + opacity.compile_ms, 0.0);
+  expect_same_picture(kept, picture_of(volume, request));
+}
+
 TEST_F(DeviceRendererTest, AKeptRendererMakesThePictureOfAFreshOne) {
   const Volume volume = bumpy_volume({16, 16, 16});
   DeviceRenderer renderer(test_kernels(), volume, {});
