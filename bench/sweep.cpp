@@ -64,11 +64,12 @@ bool measure(const SweepFlags& flags, const Scene& scene, const Volume& volume, 
   const SkipConfig chosen = chosen_skip(renderer, plan.views.front(), bar.stage("preparing"));
   plan.settings = sweep_settings(flags.choices, chosen);
   report.settings = plan.settings;
+  const BricksPlan bricks{.bricks = flags.bricks, .pool_bytes = flags.pool_bytes, .device = flags.device, .config = flags.scene.config,
+                          .skip = chosen, .views = plan.views, .rounds = flags.rounds};
+  check_bricks(bricks, volume);
   try {
     measure_sweep(renderer, plan, report.measured, bar.stage("sweeping"));
     if (flags.bricks.empty()) return true;
-    const BricksPlan bricks{.bricks = flags.bricks, .pool_bytes = flags.pool_bytes, .device = flags.device, .config = flags.scene.config,
-                            .skip = chosen, .views = plan.views, .rounds = flags.rounds};
     report.bricks = measure_bricks(bricks, volume, renderer, bar.stage("bricks"));
   } catch (const Interrupted&) {
     if (report.measured.empty()) throw;

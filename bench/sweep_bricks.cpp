@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "accel/bricks.h"
 #include "bench/sweep_measure.h"
 #include "lattice/sample_source.h"
 
@@ -83,6 +84,11 @@ void time_round(Turns& turns, std::size_t views, std::vector<BricksMeasurement>&
 }
 
 }  // namespace
+
+void check_bricks(const BricksPlan& plan, const Volume& volume) {
+  const std::string spline = plan.config.spline.empty() ? std::string(default_spline(volume.lattice)) : plan.config.spline;
+  for (const int brick : plan.bricks) BrickLayout(volume.lattice, volume.extents, make_spline(spline)->apron(), brick).slots(plan.pool_bytes);
+}
 
 std::vector<BricksMeasurement> measure_bricks(const BricksPlan& plan, const Volume& volume, Renderer& whole, const Progress& progress) {
   Turns turns(plan, volume, whole, progress);

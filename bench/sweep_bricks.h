@@ -34,6 +34,9 @@ struct BricksMeasurement {
   std::uint64_t differing_pixels = 0;  ///< of all views, against the whole volume's, bit for bit
 };
 
+/// Throws InputError naming --pool where a pool holds not even one brick of some size, or more than can be numbered: before anything is measured.
+void check_bricks(const BricksPlan& plan, const Volume& volume);
+
 /// Renders each view once untimed, the whole volume by `whole` (of plan.config) and through a pool of each kind of brick, compares the
 /// frames, and then times `rounds` frames of each view in turns. The first measurement is that of the whole volume. Throws InputError
 /// as make_renderer does.

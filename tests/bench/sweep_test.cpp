@@ -193,6 +193,7 @@ TEST_F(SweepProgram, RefusesBadInputInOneLineAndMakesNoFolder) {
   expect_refused({"sweep", kNeghip, "--iso", "40", "--classify", "post", "-o", out}, {"--classify", "--tf"});
   expect_refused(sweep({"--bricks", "8,12", "-o", out}), {"--bricks", "12", "power of two from 4 to 256"});
   expect_refused(sweep({"--bricks", "16,16", "-o", out}), {"--bricks", "twice"});
+  expect_refused(sweep({"--bricks", "8,64", "--pool", "10K", "-o", out}), {"--pool", "10240 bytes", "one brick of 64 cells"});
   expect_refused(sweep({"--bricks", "16", "--intersect", "march", "-o", out}), {"--bricks", "march"});
   Arguments unknown{"--structures", "grid,tree", "-o", out};
   std::vector<std::string> parts{"--structures", "'tree'"};
