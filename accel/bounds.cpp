@@ -8,7 +8,7 @@
 // the ray) by 3 n e through the exit it comes from: 6 n e an axis. So d = 6 e (nx + ny + nz), and at least 2^-13,
 // which is an error of 4e-5 in each axis.
 //
-// Coefficients are supposed to be below 1e36 in absolute value: above, floats overflow in any kernel.
+// Numbers of coefficients are supposed to be below 1e36 in absolute value: above, floats overflow in any kernel (float_unit sees to it).
 #include "accel/bounds.h"
 
 #include <tbb/blocked_range.h>
@@ -48,9 +48,7 @@ const Row& row_of(const Spline& spline) {
   throw std::logic_error("spline " + std::string(spline.name()) + " has no bounds");
 }
 
-double displacement(const glm::i64vec3& cells) {
-  return std::max(0x1p-13, 6.0 * kBoundsEpsilon * double(cells.x + cells.y + cells.z));
-}
+double displacement(const glm::i64vec3& cells) { return std::max(0x1p-13, ray_displacement(cells)); }
 
 /// The least and the largest coefficient.
 struct Range {
@@ -102,6 +100,10 @@ CellBounds bounds_on(const Row& row, const Coefficients<float>& c, const BoundsS
 }
 
 }  // namespace
+
+double kernel_rounding(const Spline& spline) { return row_of(spline).margin(0.0).per_magnitude / kBoundsEpsilon; }
+
+double ray_displacement(const glm::i64vec3& cells) { return 6.0 * kBoundsEpsilon * double(cells.x + cells.y + cells.z); }
 
 CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const Progress& progress) {
   assert(c.lattice == spline.lattice() && c.apron >= spline.apron());

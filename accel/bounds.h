@@ -33,6 +33,13 @@ struct BoundsScale : ValueScale {
 /// Throws std::logic_error for a spline that has none here.
 CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const Progress& progress = {});
 
+/// K: a kernel's value of the spline is within K e m of the exact one, e = 2^-24, m the largest |coefficient| that reaches the cell or one of
+/// its neighbours. The derivation is in the file of the spline's bounds.
+double kernel_rounding(const Spline& spline);
+
+/// The largest distance (1-norm, cells) between a point that a kernel means and the one it computes, in a volume of so many cells.
+double ray_displacement(const glm::i64vec3& cells);
+
 /// The scale for any coefficients that the spline's prefilter, or none, can make of samples from `sample_min` to `sample_max`, and for
 /// a volume of `cells` (cell_count of all of it).
 BoundsScale bounds_scale(const Spline& spline, double sample_min, double sample_max, const glm::i64vec3& cells);

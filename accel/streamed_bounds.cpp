@@ -16,19 +16,28 @@ constexpr std::int64_t kLong = 512, kHigh = 64;  // cells of a box along x, and 
 constexpr int kMostBlock = 64;                   // larger blocks are made of these
 constexpr double kRangePart = 0.2;               // of the progress
 
+/// What all boxes share.
+struct Task {
+  const SampleSource& source;
+  const Spline& spline;
+  Spline::Prefilter prefilter;
+  const ValueUnit& unit;
+  const BoundsScale& scale;
+};
+
 /// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond.
 std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : 0; }
 
 /// The coefficients of the cells low - ring <= cell < low + cells + ring, perhaps of some more.
-Coefficients<float> box_of(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const glm::i64vec3& low,
-                           const glm::i64vec3& cells) {
+Coefficients<float> box_of(const Task& task, const glm::i64vec3& low, const glm::i64vec3& cells) {
+  const Spline& spline = task.spline;
   const std::int64_t step = lattice_step(spline.lattice()), more = ring(spline);
   Coefficients<float> c;
   c.lattice = spline.lattice();
   c.extents = (cells + 2 * more + step - std::int64_t(1)) / step + std::int64_t(1);  // the corners of these cells
   c.apron = spline.apron();
   c.data.resize(std::size_t(coset_count(c.lattice) * c.stride_coset()));
-  box_coefficients(source, spline, prefilter, {(low - more) / step - std::int64_t(c.apron), c.padded()}, c.data);
+  box_coefficients(task.source, spline, task.prefilter, task.unit, {(low - more) / step - std::int64_t(c.apron), c.padded()}, c.data);
   return c;
 }
 
@@ -77,19 +86,18 @@ void widen_by_constant(const Spline& spline, const Coefficients<float>& box, con
 }
 
 /// Widens the blocks by the box low <= cell < low + cells.
-void add_box(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const BoundsScale& scale,
-             const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
-  const Coefficients<float> c = box_of(source, spline, prefilter, low, cells);
+void add_box(const Task& task, const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
+  const Coefficients<float> c = box_of(task, low, cells);
   if (std::all_of(c.data.begin(), c.data.end(), [&](float f) { return f == c.data[0]; })) {
-    widen_by_constant(spline, c, scale, low, cells, blocks);
+    widen_by_constant(task.spline, c, task.scale, low, cells, blocks);
   } else {
-    widen_by_box(cell_bounds(spline, c, scale), ring(spline), low, cells, blocks);
+    widen_by_box(cell_bounds(task.spline, c, task.scale), ring(task.spline), low, cells, blocks);
   }
 }
 
 /// Blocks of at most kMostBlock cells.
-BlockBounds small_blocks(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const BoundsScale& scale, int block,
-                         const Progress& progress) {
+BlockBounds small_blocks(const Task& task, int block, const Progress& progress) {
+  const SampleSource& source = task.source;
   const glm::i64vec3 cells = cell_count(source.header().lattice, source.header().extents);
   BlockBounds blocks{block, (cells + std::int64_t(block - 1)) / std::int64_t(block), {}, {}};
   blocks.min.assign(std::size_t(blocks.blocks.x * blocks.blocks.y * blocks.blocks.z), 65535);
@@ -99,7 +107,7 @@ BlockBounds small_blocks(const SampleSource& source, const Spline& spline, Splin
   tbb::parallel_for(std::int64_t(0), boxes.x * boxes.y * boxes.z, [&](std::int64_t n) {
     const glm::i64vec3 low = size * glm::i64vec3(n % boxes.x, n / boxes.x % boxes.y, n / (boxes.x * boxes.y));
     // Isolated: a thread that waits inside must not begin another box, whose memory would come on top.
-    tbb::this_task_arena::isolate([&] { add_box(source, spline, prefilter, scale, low, glm::min(size, cells - low), blocks); });
+    tbb::this_task_arena::isolate([&] { add_box(task, low, glm::min(size, cells - low), blocks); });
     shared.add(1);
   });
   return blocks;
@@ -108,15 +116,16 @@ BlockBounds small_blocks(const SampleSource& source, const Spline& spline, Splin
 }  // namespace
 
 StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, int block,
-                               std::string_view what, const Progress& progress) {
+                               std::string_view what, const Progress& progress, const std::optional<SampleRange>& known) {
   const Volume& header = source.header();
   assert(header.lattice == spline.lattice());
   check_block(block);
   StreamedBounds bounds;
-  bounds.samples = sample_range(source, [&](double fraction) { report(progress, kRangePart * fraction); });
+  bounds.samples = known ? *known : sample_range(source, [&](double fraction) { report(progress, kRangePart * fraction); });
   check_finite(bounds.samples, header, what);
-  bounds.scale = bounds_scale(spline, bounds.samples.min, bounds.samples.max, cell_count(header.lattice, header.extents));
-  bounds.blocks = small_blocks(source, spline, prefilter, bounds.scale, std::min(block, kMostBlock),
+  bounds.unit = float_unit(header.type(), bounds.samples.min, bounds.samples.max);
+  bounds.scale = bounds_scale(spline, bounds.unit.number(bounds.samples.min), bounds.unit.number(bounds.samples.max), cell_count(header.lattice, header.extents));
+  bounds.blocks = small_blocks({source, spline, prefilter, bounds.unit, bounds.scale}, std::min(block, kMostBlock),
                                [&](double fraction) { report(progress, kRangePart + (1.0 - kRangePart) * fraction); });
   if (block > kMostBlock) bounds.blocks = coarser(bounds.blocks, block);
   report(progress, 1.0);

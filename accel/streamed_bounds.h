@@ -1,16 +1,19 @@
 // Bounds of a volume that need not be in memory, made box by box.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "accel/classification.h"
 #include "lattice/sample_source.h"
+#include "spline/value_unit.h"
 
 namespace quincunx {
 
 /// What a pass over all samples finds: their range, the scale of bounds that follows from it, and the bounds of blocks.
 struct StreamedBounds {
   SampleRange samples;
+  ValueUnit unit;  ///< that the bounds are in: float_unit of the samples
   BoundsScale scale;
   BlockBounds blocks;
 };
@@ -19,10 +22,10 @@ struct StreamedBounds {
 /// that allows whatever the prefilter may make of such samples, and by up to four of its steps wider, as some margins suppose the largest
 /// coefficient of the volume near every cell.
 ///
-/// Two passes over the samples, for their range and for the bounds. Beside the result each thread holds one box, of at most 512 x 64 x 64
+/// Two passes over the samples, for their range, where that is not `known`, and for the bounds. Beside the result each thread holds one box, of at most 512 x 64 x 64
 /// cells, with what is made of it.
 /// Throws InputError, naming `what`, where samples are NaN or infinite (count and first place), and where they cannot be read.
 StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, int block,
-                               std::string_view what, const Progress& progress = {});
+                               std::string_view what, const Progress& progress = {}, const std::optional<SampleRange>& known = {});
 
 }  // namespace quincunx

@@ -28,6 +28,12 @@ struct EvalFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
+/// The unit that kernels would have its coefficients in.
+ValueUnit unit_of(const Volume& volume) {
+  const SampleRange range = sample_range(volume);
+  return float_unit(volume.type(), range.min, range.max);
+}
+
 /// The spline of a volume, evaluated in the world.
 class WorldSpline {
  public:
@@ -40,7 +46,7 @@ class WorldSpline {
     if (precision_ == Precision::exact_double) {
       coefficients_ = spline_->coefficients(volume, flags.prefilter, progress);
     } else {
-      float_coefficients_ = spline_->coefficients_float(volume, flags.prefilter, progress);
+      float_coefficients_ = spline_->coefficients_float(volume, flags.prefilter, unit_of(volume), progress);
     }
   }
 

@@ -24,7 +24,7 @@ Jet evaluate_float(const Spline& spline, const Coefficients<float>& c, const glm
       }
     }
   }
-  return {double(value), glm::dvec3(gradient)};
+  return {c.unit.value(double(value)), c.unit.scale * glm::dvec3(gradient)};
 }
 
 }  // namespace quincunx

@@ -12,7 +12,7 @@ void CoefficientBricks::fill(const glm::ivec3& brick, std::span<float> slot) con
 }
 
 void SampleBricks::fill(const glm::ivec3& brick, std::span<float> slot) const {
-  box_coefficients(source_, spline_, prefilter_, slot_box(layout_, brick), slot);
+  box_coefficients(source_, spline_, prefilter_, unit_, slot_box(layout_, brick), slot);
 }
 
 }  // namespace quincunx

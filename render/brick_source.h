@@ -28,12 +28,12 @@ class CoefficientBricks final : public BrickSource {
   const Coefficients<float>& coefficients_;
 };
 
-/// Bricks whose samples are read and prefiltered each time, to the same coefficients bit for bit. Keeps references to `source` and
+/// Bricks whose samples are read and prefiltered each time, to the same coefficients in `unit`, bit for bit. Keeps references to `source` and
 /// `spline`. The samples are supposed to be finite (sample_range tells).
 class SampleBricks final : public BrickSource {
  public:
-  SampleBricks(const BrickLayout& layout, const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter)
-      : layout_(layout), source_(source), spline_(spline), prefilter_(prefilter) {}
+  SampleBricks(const BrickLayout& layout, const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const ValueUnit& unit = {})
+      : layout_(layout), source_(source), spline_(spline), prefilter_(prefilter), unit_(unit) {}
   void fill(const glm::ivec3& brick, std::span<float> slot) const override;
 
  private:
@@ -41,6 +41,7 @@ class SampleBricks final : public BrickSource {
   const SampleSource& source_;
   const Spline& spline_;
   Spline::Prefilter prefilter_;
+  ValueUnit unit_;
 };
 
 }  // namespace quincunx

@@ -128,15 +128,17 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   if (coefficients_) return;
   check_cells();
   if (source_) {
+    const ValueUnit unit = source_unit(progress);
     const BrickLayout layout(volume_.lattice, volume_.extents, spline_->apron(), config_.brick);
-    bricks_.emplace(device_, layout, std::make_shared<SampleBricks>(layout, *source_, *spline_, config_.prefilter), *config_.pool_bytes,
+    bricks_.emplace(device_, layout, std::make_shared<SampleBricks>(layout, *source_, *spline_, config_.prefilter, unit), *config_.pool_bytes,
                     limits_.texel_elements);
-    coefficients_ = Coefficients<float>{volume_.lattice, volume_.extents, spline_->apron(), volume_.world, {}};
+    coefficients_ = Coefficients<float>{volume_.lattice, volume_.extents, spline_->apron(), volume_.world, {}, unit};
     return;
   }
   coefficient_layout();
   const Stopwatch prefilter;
-  coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, progress);
+  const SampleRange range = sample_range(volume_);
+  coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, float_unit(volume_.type(), range.min, range.max), progress);
   stats.prefilter_ms = prefilter.ms();
   volume_.samples = {};
 
@@ -151,7 +153,7 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
   if (bounds_ && bounds_->finest() <= finest) return;
   const Stopwatch watch;
   if (source_) {
-    StreamedBounds streamed = streamed_bounds(*source_, *spline_, config_.prefilter, finest, what_, progress);
+    StreamedBounds streamed = streamed_bounds(*source_, *spline_, config_.prefilter, finest, what_, progress, source_range_);
     bounds_.emplace(streamed.scale, std::move(streamed.blocks));
     skipping_.emplace(device_);
   } else {
@@ -161,10 +163,19 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
 }
 
 void DeviceRenderer::check_samples(const Progress& progress) {
-  if (!source_ || bounds_ || samples_checked_) return;
-  check_finite(sample_range(*source_, progress), source_->header(), what_);
-  samples_checked_ = true;
+  if (!source_ || bounds_ || source_range_) return;
+  const SampleRange range = sample_range(*source_, progress);
+  check_finite(range, source_->header(), what_);
+  source_range_ = range;
 }
+
+ValueUnit DeviceRenderer::source_unit(const Progress& progress) {
+  if (volume_.type() != SampleType::float32) return {};
+  check_samples(progress);
+  return float_unit(volume_.type(), source_range_->min, source_range_->max);
+}
+
+std::vector<ValueRange> DeviceRenderer::seen_numbers(const Scene& scene) const { return numbers_of(seen_values(scene), coefficients_->unit); }
 
 SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, const Progress& progress) {
   SkipConfig wanted = request.skip;
@@ -172,13 +183,13 @@ SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, 
   if (wanted.structure == "none" || !is_open(wanted)) return {wanted, ""};
   prepare_coefficients(stats, progress);
   prepare_bounds(request, stats, progress);
-  return skipping_->choose(wanted, *bounds_, seen_values(request.scene), request.scene.volume && visible_surfaces(request.scene).empty(), stats);
+  return skipping_->choose(wanted, *bounds_, seen_numbers(request.scene), request.scene.volume && visible_surfaces(request.scene).empty(), stats);
 }
 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
   std::vector<float> data;
   for (const Isosurface& s : isosurfaces) {
-    data.insert(data.end(), {float(s.isovalue), float(s.opacity), 0.0f, 0.0f});
+    data.insert(data.end(), {kernel_isovalue(s.isovalue, coefficients_->unit), float(s.opacity), 0.0f, 0.0f});
     data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
   }
   if (data.empty()) return;
@@ -357,7 +368,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
     check_samples(progress);
   }
   visible.skip = complete(visible, stats, progress).config;
-  skipping_->prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_values(visible.scene), lattice_eye(visible.scene), stats);
+  skipping_->prepare(visible.skip, skips ? &*bounds_ : nullptr, seen_numbers(visible.scene), lattice_eye(visible.scene), stats);
   upload_isosurfaces(visible.scene.isosurfaces);
   upload_transfer_table(visible.scene, stats);
   const Kernels& made = kernels_->kernels(variant(visible), stats.compile_ms);

@@ -45,6 +45,10 @@ class DeviceRenderer final : public Renderer {
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   /// Where nothing is skipped: throws InputError for samples of the source that are not finite, as prepare_bounds does.
   void check_samples(const Progress& progress);
+  /// The unit of the source's coefficients: a pass over its samples where they are floats.
+  ValueUnit source_unit(const Progress& progress);
+  /// What of the scene can be seen, in the unit of the coefficients and their bounds.
+  std::vector<ValueRange> seen_numbers(const Scene& scene) const;
   /// How to skip, with nothing left open, and why (empty where nothing was).
   SkipChoice complete(const Request& request, RenderStats& stats, const Progress& progress);
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
@@ -78,7 +82,7 @@ class DeviceRenderer final : public Renderer {
   CoefficientTexels texels_;
   std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
   std::string what_;                            ///< the source's name
-  bool samples_checked_ = false;                ///< those of the source are finite
+  std::optional<SampleRange> source_range_;     ///< of the source's samples, once they were looked at and found finite
   std::optional<DeviceBricks> bricks_;
 
   std::optional<VolumeBounds> bounds_;

@@ -11,7 +11,7 @@ namespace {
 
 /// The same coefficients as the kernels would read, for bounds.
 Coefficients<float> narrowed(const Coefficients<double>& c) {
-  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end())};
+  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end()), {}};
 }
 
 }  // namespace

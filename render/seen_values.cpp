@@ -1,5 +1,6 @@
 #include "render/seen_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,8 @@ namespace quincunx {
 namespace {
 
 constexpr std::size_t kMostRanges = 254;
+constexpr double kMostIsovalue = 1e30;  // beyond, polynomials of it would overflow; coefficients are below 2^65
+
 
 constexpr double kMargin = 1.0 / 64.0;  // entries; more than a look-up in floats is off
 constexpr double kLargest = std::numeric_limits<double>::max();
@@ -52,6 +55,21 @@ std::vector<ValueRange> seen_values(const Scene& scene) {
     ranges.insert(ranges.end(), opaque.begin(), opaque.end());
   }
   return joined(merged(std::move(ranges)), kMostRanges);
+}
+
+float kernel_isovalue(double isovalue, const ValueUnit& unit) { return float(std::clamp(unit.number(isovalue), -kMostIsovalue, kMostIsovalue)); }
+
+std::vector<ValueRange> numbers_of(std::vector<ValueRange> values, const ValueUnit& unit) {
+  if (unit.plain()) return values;
+  for (ValueRange& range : values) {
+    if (range.low == range.high) {
+      range.low = range.high = kernel_isovalue(range.low, unit);
+    } else {
+      range.low = std::nextafter(unit.number(range.low), -kLargest);
+      range.high = std::nextafter(unit.number(range.high), kLargest);
+    }
+  }
+  return merged(std::move(values));
 }
 
 }  // namespace quincunx

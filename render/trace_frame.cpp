@@ -59,14 +59,15 @@ void check_stretches(const DirectVolume& volume, double cell, double radius) {
   if (volume.step < least) throw InputError(fmt::format("--step: found {}, expected at least {:.3g} for a volume as large as this", volume.step, 1.01 * least));
 }
 
-/// What a volume's kernels are told but for its table. `scale`: by how much world gradients are more than normal_x.. makes of them.
-void store_volume(const DirectVolume& volume, double cell, double scale, TraceParameters& p) {
+/// What a volume's kernels are told but for its table. `scale`: by how much world gradients, in the coefficients' unit, are more than normal_x..
+/// makes of them.
+void store_volume(const DirectVolume& volume, double cell, double scale, const ValueUnit& unit, TraceParameters& p) {
   p.sampling = vec4(float(volume.step * cell), 0.0f, float(volume.termination), std::bit_cast<float>(volume.jitter.value_or(0)));
   const double last = volume.table_entries() - 1;
   const double low = float_below(volume.function.low()), high = float_above(volume.function.high());
-  p.transfer = vec4(float(low), float(last / (high - low)), float(last), 0.0f);
+  p.transfer = vec4(float(unit.number(low)), float(last / (high - low) * unit.scale), float(last), 0.0f);
   if (volume.modulated())
-    p.modulation = vec4(float(volume.modulate_from), float(1.0 / (volume.modulate_to - volume.modulate_from)), float(scale), 0.0f);
+    p.modulation = vec4(float(volume.modulate_from), float(1.0 / (volume.modulate_to - volume.modulate_from)), float(scale * unit.scale), 0.0f);
   p.modulation.w = float(volume.finest * last);
 }
 
@@ -105,7 +106,7 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
   normal /= largest;
   if (scene.volume) {
     check_stretches(*scene.volume, cell_length(world), domain_radius(world, centre));
-    store_volume(*scene.volume, cell_length(world), largest, p);
+    store_volume(*scene.volume, cell_length(world), largest, coefficients.unit, p);
   }
   p.normal_x = narrow(normal[0]);
   p.normal_y = narrow(normal[1]);

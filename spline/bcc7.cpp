@@ -139,12 +139,11 @@ void Bcc7::restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& 
 }
 
 Coefficients<double> Bcc7::coefficients(const Volume& volume, Prefilter prefilter, const Progress& progress) const {
-  return bcc_coefficients<double>(volume, mask_of(prefilter), apron(), name(), progress);
+  return bcc_coefficients<double>(volume, mask_of(prefilter), apron(), name(), {}, progress);
 }
 
-Coefficients<float> Bcc7::coefficients_float(const Volume& volume, Prefilter prefilter,
-                                             const Progress& progress) const {
-  return bcc_coefficients<float>(volume, mask_of(prefilter), apron(), name(), progress);
+Coefficients<float> Bcc7::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
+  return bcc_coefficients<float>(volume, mask_of(prefilter), apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

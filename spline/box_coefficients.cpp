@@ -28,7 +28,7 @@ void copy_clamped(const Coefficients<float>& part, const glm::i64vec3& begin, co
 
 }  // namespace
 
-void box_coefficients(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const IndexBox& box,
+void box_coefficients(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const ValueUnit& unit, const IndexBox& box,
                       std::span<float> out) {
   const Extents& extents = source.header().extents;
   const glm::i64vec3 last = extents - std::int64_t(1), zero(0);
@@ -36,7 +36,7 @@ void box_coefficients(const SampleSource& source, const Spline& spline, Spline::
   // A side that the prefilter finds clamped is the volume's own, or too far from the box to matter.
   const glm::i64vec3 low = glm::max(glm::clamp(box.first, zero, last) - reach, zero);
   const glm::i64vec3 high = glm::min(glm::clamp(box.first + box.size - std::int64_t(1), zero, last) + reach, last) + std::int64_t(1);
-  copy_clamped(spline.coefficients_float(source.read_box(low, high), prefilter), low, extents, box, out);
+  copy_clamped(spline.coefficients_float(source.read_box(low, high), prefilter, unit), low, extents, box, out);
 }
 
 void copy_box(const Coefficients<float>& whole, const IndexBox& box, std::span<float> out) {

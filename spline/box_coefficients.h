@@ -14,9 +14,9 @@ struct IndexBox {
   Extents size{0};
 };
 
-/// Writes the coefficients of `box` to `out`, which has one number for each, x fastest, coset slowest; each index is clamped to the volume.
+/// Writes the coefficients of `box`, in `unit`, to `out`, which has one number for each, x fastest, coset slowest; each index is clamped to the volume.
 /// The samples they depend on are read and prefiltered, nothing else. The samples are supposed to be finite (sample_range tells).
-void box_coefficients(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const IndexBox& box,
+void box_coefficients(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, const ValueUnit& unit, const IndexBox& box,
                       std::span<float> out);
 
 /// The same, copied from the coefficients of the whole volume.

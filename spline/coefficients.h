@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lattice/lattice.h"
+#include "spline/value_unit.h"
 
 namespace quincunx {
 
@@ -25,6 +26,7 @@ struct Coefficients {
   int apron = 0;
   World world;
   std::vector<T> data;  ///< number ((c*pz + k+apron)*py + j+apron)*px + i+apron, p = extents + 2*apron
+  ValueUnit unit;       ///< of `data`; plain where T is double
 
   Extents padded() const { return extents + std::int64_t(2 * apron); }
   std::int64_t stride_y() const { return padded().x; }

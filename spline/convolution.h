@@ -77,18 +77,19 @@ void extend_planes(Coefficients<T>& out) {
 
 /// The coefficients that `row` makes of the volume's samples, extended by `apron` on every side. `row` is called as
 ///   bool row(const SampleRows<S>& source, int coset, int64 j, int64 k, T* out, double* scratch)
-/// from several threads, for every type S of samples; it writes the extents.x coefficients of the row (j,k) to `out`, has
+/// from several threads, for every type S of samples; it writes the extents.x coefficients of the row (j,k), in `unit`, to `out`, has
 /// 2 * (extents.x + 2) numbers of scratch, and returns whether every value fits T.
 /// Throws InputError as check_samples and refuse_overflow do.
 template <class T, class Row>
-Coefficients<T> convolve(const Volume& volume, LatticeKind lattice, int apron, std::string_view spline, const Row& row,
-                         const Progress& progress) {
+Coefficients<T> convolve(const Volume& volume, LatticeKind lattice, int apron, std::string_view spline, const ValueUnit& unit,
+                         const Row& row, const Progress& progress) {
   check_samples(volume, lattice, spline);
   Coefficients<T> out;
   out.lattice = lattice;
   out.extents = volume.extents;
   out.apron = apron;
   out.world = volume.world;
+  out.unit = unit;
   out.data.resize(std::size_t(coset_count(lattice) * out.stride_coset()));
 
   const std::int64_t planes = coset_count(lattice) * out.extents.z;

@@ -10,7 +10,7 @@ namespace {
 /// Convolves row (j,k) of a coset. `out` receives extents.x values; `own` and `diagonal` are scratch of extents.x + 2.
 /// Returns whether every value fits T.
 template <class T, class S>
-bool convolve_row(const SampleRows<S>& source, const BccMask& mask, int coset, std::int64_t j, std::int64_t k, T* out,
+bool convolve_row(const SampleRows<S>& source, const BccMask& mask, const ValueUnit& unit, int coset, std::int64_t j, std::int64_t k, T* out,
                   double* own, double* diagonal) {
   const std::int64_t n = source.extents.x;
   const S* centre = source.row(coset, j, k);
@@ -27,12 +27,13 @@ bool convolve_row(const SampleRows<S>& source, const BccMask& mask, int coset, s
   extend_row(own + 1, n, 1);
   extend_row(diagonal + 1, n, 1);
 
+  const double inverse = 1.0 / unit.scale;
   double largest = 0.0;
   for (std::int64_t i = 0; i < n; ++i) {
     const double cross = (double(below[i]) + double(above[i])) + (double(behind[i]) + double(before[i]));
     const double axial = cross + (own[i] + own[i + 2]);
     const double diagonals = diagonal[i + coset] + diagonal[i + coset + 1];
-    const double value = (mask.centre * own[i + 1] + mask.axial * axial + mask.diagonal * diagonals) / mask.denominator;
+    const double value = ((mask.centre * own[i + 1] + mask.axial * axial + mask.diagonal * diagonals) / mask.denominator - unit.offset) * inverse;
     largest = std::max(largest, value < 0.0 ? -value : value);
     out[i] = T(value);
   }
@@ -42,7 +43,7 @@ bool convolve_row(const SampleRows<S>& source, const BccMask& mask, int coset, s
 /// Row (j,k) convolved along z, then y, then x. `along_z_y` is scratch of extents.x + 2. Returns whether every value
 /// fits T.
 template <class T, class S>
-bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, std::int64_t j, std::int64_t k, T* out,
+bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, const ValueUnit& unit, std::int64_t j, std::int64_t k, T* out,
                   double* along_z_y) {
   const std::int64_t n = source.extents.x;
   const S* rows[3][3];
@@ -57,10 +58,11 @@ bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, std::int64_
   extend_row(along_z_y + 1, n, 1);
 
   const double denominator = mask.denominator * mask.denominator * mask.denominator;
+  const double inverse = 1.0 / unit.scale;
   double largest = 0.0;
   for (std::int64_t i = 0; i < n; ++i) {
     const double value =
-        (mask.centre * along_z_y[i + 1] + mask.side * (along_z_y[i] + along_z_y[i + 2])) / denominator;
+        ((mask.centre * along_z_y[i + 1] + mask.side * (along_z_y[i] + along_z_y[i + 2])) / denominator - unit.offset) * inverse;
     largest = std::max(largest, value < 0.0 ? -value : value);
     out[i] = T(value);
   }
@@ -70,35 +72,33 @@ bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, std::int64_
 }  // namespace
 
 template <class T>
-Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
+Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline, const ValueUnit& unit,
                                  const Progress& progress) {
-  const auto row = [&mask, n = volume.extents.x](const auto& source, int coset, std::int64_t j, std::int64_t k, T* out,
+  const auto row = [&mask, &unit, n = volume.extents.x](const auto& source, int coset, std::int64_t j, std::int64_t k, T* out,
                                                  double* scratch) {
-    return convolve_row(source, mask, coset, j, k, out, scratch, scratch + n + 2);
+    return convolve_row(source, mask, unit, coset, j, k, out, scratch, scratch + n + 2);
   };
-  return convolve<T>(volume, LatticeKind::bcc, apron, spline, row, progress);
+  return convolve<T>(volume, LatticeKind::bcc, apron, spline, unit, row, progress);
 }
 
 template <class T>
-Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline,
-                                       const Progress& progress) {
+Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline, const ValueUnit& unit,
+                                 const Progress& progress) {
   // The one cell of an axis of one sample reaches as far beyond it as a cell beyond the last one would.
   const Extents& n = volume.extents;
   const int wide = n.x == 1 || n.y == 1 || n.z == 1 ? apron + 1 : apron;
   const auto row = [&](const auto& source, int, std::int64_t j, std::int64_t k, T* out, double* scratch) {
-    if (mask.side != 0.0) return convolve_row(source, mask, j, k, out, scratch);
+    if (mask.side != 0.0) return convolve_row(source, mask, unit, j, k, out, scratch);
     const auto* from = source.row(0, j, k);
-    for (std::int64_t i = 0; i < source.extents.x; ++i) out[i] = T(from[i]);
+    for (std::int64_t i = 0; i < source.extents.x; ++i) out[i] = T(unit.number(double(from[i])));
     return true;
   };
-  return convolve<T>(volume, LatticeKind::cartesian, wide, spline, row, progress);
+  return convolve<T>(volume, LatticeKind::cartesian, wide, spline, unit, row, progress);
 }
 
-template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const Progress&);
-template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const Progress&);
-template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
-                                                     const Progress&);
-template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
-                                                    const Progress&);
+template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&, const Progress&);
+template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&, const Progress&);
+template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
+template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
 
 }  // namespace quincunx

@@ -33,26 +33,26 @@ inline constexpr AxisMask kIdentityAxisMask{0, 1, 1};
 /// For cubic B-splines: 4/3 at the centre, -1/6 at either side.
 inline constexpr AxisMask kCubicAxisMask{-1, 8, 6};
 
-/// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double
-/// and rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
+/// Convolves the samples, extended by clamping each index of each coset, with `mask` at the points in range, in double;
+/// in `unit`, rounded to T once; extends the result by `apron` samples in the same way. `spline` is its user, for errors.
 /// Throws InputError where the volume is not BCC, its samples are not as many as its extents say, one is NaN or
 /// infinite, or a result does not fit T.
 template <class T>
 Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
-                                 const Progress& progress);
+                                 const ValueUnit& unit, const Progress& progress);
 
 /// The same on the Cartesian lattice; the apron is one sample wider where an axis has one sample (Spline::apron).
 template <class T>
 Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline,
-                                       const Progress& progress);
+                                       const ValueUnit& unit, const Progress& progress);
 
-extern template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
+extern template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&,
                                                       const Progress&);
-extern template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view,
-                                                     const Progress&);
-extern template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
-                                                            const Progress&);
-extern template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view,
-                                                           const Progress&);
+extern template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&,
+                                                      const Progress&);
+extern template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&,
+                                                      const Progress&);
+extern template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&,
+                                                      const Progress&);
 
 }  // namespace quincunx

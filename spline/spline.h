@@ -59,8 +59,8 @@ class Spline {
   enum class Prefilter { none, quasi_interpolation };
   virtual Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                             const Progress& progress = {}) const = 0;
-  /// The same, each rounded to float once.
-  virtual Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter,
+  /// The same in `unit`, each rounded to float once.
+  virtual Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
                                                  const Progress& progress = {}) const = 0;
 };
 

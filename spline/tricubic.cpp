@@ -150,12 +150,11 @@ void Tricubic::restrict_to_segment(const Coefficients<double>& c, const glm::ive
 
 Coefficients<double> Tricubic::coefficients(const Volume& volume, Prefilter prefilter,
                                             const Progress& progress) const {
-  return cartesian_coefficients<double>(volume, mask_of(prefilter), apron(), name(), progress);
+  return cartesian_coefficients<double>(volume, mask_of(prefilter), apron(), name(), {}, progress);
 }
 
-Coefficients<float> Tricubic::coefficients_float(const Volume& volume, Prefilter prefilter,
-                                                 const Progress& progress) const {
-  return cartesian_coefficients<float>(volume, mask_of(prefilter), apron(), name(), progress);
+Coefficients<float> Tricubic::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
+  return cartesian_coefficients<float>(volume, mask_of(prefilter), apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

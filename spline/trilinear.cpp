@@ -67,11 +67,11 @@ void Trilinear::restrict_to_segment(const Coefficients<double>& c, const glm::iv
 }
 
 Coefficients<double> Trilinear::coefficients(const Volume& volume, Prefilter, const Progress& progress) const {
-  return cartesian_coefficients<double>(volume, kIdentityAxisMask, apron(), name(), progress);
+  return cartesian_coefficients<double>(volume, kIdentityAxisMask, apron(), name(), {}, progress);
 }
 
-Coefficients<float> Trilinear::coefficients_float(const Volume& volume, Prefilter, const Progress& progress) const {
-  return cartesian_coefficients<float>(volume, kIdentityAxisMask, apron(), name(), progress);
+Coefficients<float> Trilinear::coefficients_float(const Volume& volume, Prefilter, const ValueUnit& unit, const Progress& progress) const {
+  return cartesian_coefficients<float>(volume, kIdentityAxisMask, apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

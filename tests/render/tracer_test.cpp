@@ -214,7 +214,7 @@ class RoundedRamp final : public Spline {
     bernstein[1] = b.x - 3.0 + error;
   }
   Coefficients<double> coefficients(const Volume&, Prefilter, const Progress&) const override { return {}; }
-  Coefficients<float> coefficients_float(const Volume&, Prefilter, const Progress&) const override { return {}; }
+  Coefficients<float> coefficients_float(const Volume&, Prefilter, const ValueUnit&, const Progress&) const override { return {}; }
 
  private:
   double error_;

@@ -66,7 +66,7 @@ class QuadraticSpline final : public Spline {
     bernstein[1] = 2.0 * f_(0.5 * (a + b)).value - 0.5 * (bernstein[0] + bernstein[2]);
   }
   Coefficients<double> coefficients(const Volume&, Prefilter, const Progress&) const override { return {}; }
-  Coefficients<float> coefficients_float(const Volume&, Prefilter, const Progress&) const override { return {}; }
+  Coefficients<float> coefficients_float(const Volume&, Prefilter, const ValueUnit&, const Progress&) const override { return {}; }
 
   /// Coefficients that say how large the domain is, and the values (for the rounding that the tracer allows).
   static Coefficients<double> domain(const Extents& extents, double largest) {

@@ -1,0 +1,105 @@
+#include "bench/stability_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "bench/open_device.h"
+#include "render/device_probe.h"
+#include "render/device_renderer.h"
+
+namespace quincunx {
+namespace {
+
+constexpr double kEpsilon = 0x1p-24;
+constexpr double kLeast = 1e-300;  // of m: all coefficients may be 0
+
+/// One volume, as doubles and on the device.
+struct Subject {
+  const Spline& spline;
+  Volume volume;
+  Coefficients<double> coefficients;
+  Coefficients<float> rounded;
+};
+
+/// The error of values and gradients at random points of the domain, a quarter of them in the planes of the lattice.
+EvaluationError evaluation_error(const Subject& subject, gpu::Device& device, const StabilityPlan& plan) {
+  const Coefficients<float>& c = subject.rounded;
+  const glm::dvec3 far(domain_max(c.lattice, c.extents));
+  std::mt19937 random(plan.seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<glm::dvec3> points(static_cast<std::size_t>(plan.points));
+  for (glm::dvec3& u : points)
+    for (int a = 0; a < 3; ++a) {
+      u[a] = far[a] * uniform(random);
+      if (uniform(random) < 0.25) u[a] = std::rint(u[a]);
+    }
+  const std::vector<Jet> jets = probe_spline(device, subject.spline, c, 0.0, points);
+
+  EvaluationError error;
+  error.value_allowed = kernel_rounding(subject.spline);
+  error.gradient_allowed = subject.spline.degree() * error.value_allowed;
+  const ValueUnit& unit = c.unit;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const glm::dvec3 u = glm::clamp(points[n], glm::dvec3(0.0), far);
+    // In the middle of the cell that the kernel takes, so that a gradient that jumps is that of the same cell.
+    const glm::dvec3 middle = glm::dvec3(cell_of(u, domain_max(c.lattice, c.extents))) + 0.5;
+    const Jet truth = subject.spline.evaluate(subject.coefficients, u + 1e-9 * (glm::min(middle, far) - u));
+    const double m = std::max(local_magnitude(subject.coefficients, u, unit.offset), kLeast);
+    error.value = std::max(error.value, std::abs(unit.value(jets[n].value) - truth.value) / (kEpsilon * m));
+    for (int a = 0; a < 3; ++a)
+      error.gradient = std::max(error.gradient, std::abs(unit.scale * jets[n].gradient[a] - truth.gradient[a]) / (kEpsilon * m));
+  }
+  return error;
+}
+
+Renderer::Request request_for(const StabilityCase& c, const Camera& camera) {
+  Renderer::Request request;
+  request.scene.isosurfaces = {Isosurface{.isovalue = c.isovalue}};
+  request.scene.camera = camera;
+  request.scene.width = request.scene.height = c.size;
+  return request;
+}
+
+StabilityLine measure_case(const StabilityCase& c, const std::string& name, const std::shared_ptr<KernelCache>& kernels, const StabilityPlan& plan) {
+  const std::unique_ptr<Spline> spline = make_spline(name);
+  Subject subject{*spline, c.sampled(spline->lattice()), {}, {}};
+  subject.coefficients = spline->coefficients(subject.volume, Spline::Prefilter::quasi_interpolation);
+  const SampleRange range = sample_range(subject.volume);
+  subject.rounded = spline->coefficients_float(subject.volume, Spline::Prefilter::quasi_interpolation, float_unit(c.type, range.min, range.max));
+  Renderer::Config config;
+  config.spline = name;
+  DeviceRenderer renderer(kernels, subject.volume, config);
+  // Bounds of the rounded coefficients are those of the values where they are rounded as they are.
+  const CellBounds bounds = cell_bounds(*spline, subject.rounded);
+
+  StabilityLine line{c.group, c.name, name, c.isovalue, evaluation_error(subject, kernels->device(), plan), {}, {}};
+  for (const Camera& camera : c.views(spline->lattice())) {
+    Renderer::Request request = request_for(c, camera);
+    const Judge judge(*spline, subject.coefficients, request.scene, subject.rounded.unit.plain() ? &bounds : nullptr);
+    const Judge::Config floats{.epsilon = kEpsilon, .offset = subject.rounded.unit.offset};
+    RenderStats stats;
+    line.exact += judge.judge(renderer.render(request, stats), floats);
+    request.scene.intersect = Intersect::march;
+    request.scene.step = plan.step;
+    line.march += judge.judge(renderer.render(request, stats), floats);
+  }
+  return line;
+}
+
+}  // namespace
+
+void measure_stability(const StabilityPlan& plan, std::vector<StabilityLine>& lines, std::string& device, const Progress& progress) {
+  const auto kernels = std::make_shared<KernelCache>(open_device(plan.device));
+  device = gpu::info(kernels->device()).name;
+  const double all = double(plan.cases.size() * plan.splines.size());
+  for (const StabilityCase& c : plan.cases)
+    for (const std::string& spline : plan.splines) {
+      report(progress, double(lines.size()) / all);
+      lines.push_back(measure_case(c, spline, kernels, plan));
+    }
+  report(progress, 1.0);
+}
+
+}  // namespace quincunx
