@@ -61,9 +61,12 @@ std::vector<StabilityCase> stiff() {
                        [slope](const Vec& u) { return 1.0 / (1.0 + std::exp(-slope * (9.3 - glm::distance(u, kMiddle)))); }, 0.5));
   // +1 on the even coset, -1 on the odd one: at u the parity of x, all three being alike. On the Cartesian lattice, signs that alternate along each axis.
   const auto cosets = [](const Vec& u) { return std::cos(glm::pi<double>() * u.x); };
+  // Signs that alternate within each coset; on the Cartesian lattice in pairs.
+  const auto pairs = [](const Vec& u) { return std::sqrt(2.0) * std::cos(0.5 * glm::pi<double>() * (u.x + u.y + u.z - 0.5)); };
   const auto checkers = [](const Vec& u) { return std::cos(glm::pi<double>() * (u.x + u.y + u.z)); };
   all.push_back(make("alternating along x", cosets, 0.0));
   all.push_back(make("a checkerboard of samples", checkers, 0.0));
+  all.push_back(make("signs that alternate within each coset", pairs, 0.0));
   all.push_back(make("a checkerboard, isovalue near its top", checkers, 0.1));
   const auto spike = [](const Vec& u) { return u == Vec(16, 14, 12) ? 1e6 : 1.0; };
   all.push_back(make("a spike of 1e6 in a field of 1, seen at 2", spike, 2.0));
@@ -129,6 +132,13 @@ std::vector<StabilityCase> tangency() {
     c.cameras = {look(at - Vec(60, 0, 0), at, fov_of(height, 60.0)), look(at - Vec(50, 33, 0), at, fov_of(height, 60.0))};
     all.push_back(c);
   }
+  // A saddle, which every spline here reproduces: along (1,-1,0) its double root is at (17.25, 17.25).
+  for (const double height : {1e-2, 1e-4, 2e-6}) {
+    StabilityCase c = make(fmt::format("a saddle grazed within {:g} cells", 0.5 * height), [](const Vec& u) { return (u.x - 15.25) * (u.y - 15.25); }, 4.0);
+    const Vec at(17.25, 17.25, 15.5);
+    c.cameras = {look(at - Vec(40, -40, 0), at, fov_of(height, std::hypot(40.0, 40.0))), look(at + Vec(40, -40, 30), at, fov_of(height, 64.0))};
+    all.push_back(c);
+  }
   const auto along = [](const Vec& u) { return plane(u); };
   all.push_back(make("double roots, touched from above", [along](const Vec& u) { return along(u) * along(u); }, 0.0));
   all.push_back(make("double roots, touched from below", [along](const Vec& u) { return -along(u) * along(u); }, 0.0));
@@ -188,13 +198,18 @@ std::vector<StabilityCase> geometry() {
     all.push_back(c);
   }
   const auto sphere = [](const Vec& u) { return ball(u, kMiddle, 10.0); };
-  const auto placed = [&](const std::string& name, const World& world) {
+  const auto placed = [&](const std::string& name, const World& world, const std::vector<Camera>& cameras = {}) {
     StabilityCase c = make(name, sphere, 0.0);
     c.world = world;
+    c.cameras = cameras;
     all.push_back(c);
   };
-  placed("cells stretched 1 : 1000", {Vec(0), glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, 1000)});
-  placed("cells stretched 1000 : 1, sheared", {Vec(1, 2, 3), glm::dmat3(1000, 0, 0, 0.5, 1, 0, 0, 0.3, 1)});
+  // Along the long axis, and so near that a part of the surface fills the picture.
+  placed("cells stretched 1 : 1000", {Vec(0), glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, 1000)},
+         {look(Vec(15.5, 15.5, -1e5), Vec(15.5, 15.5, 15500), fov_of(31.0, 115500)), look(Vec(15.5, -30, 14000), Vec(15.5, 15.5, 15500), 20.0), look(Vec(-20, 15.5, 8000), Vec(15.5, 15.5, 9000), 10.0)});
+  const World stretched{Vec(1, 2, 3), glm::dmat3(1000, 0, 0, 0.5, 1, 0, 0, 0.3, 1)};
+  const Vec middle = stretched.to_world(kMiddle);
+  placed("cells stretched 1000 : 1, sheared", stretched, {look(middle - Vec(2e5, 0, 0), middle, fov_of(31.0, 2e5)), look(middle - Vec(100, 40, 3), middle, 20.0)});
   placed("sheared", {Vec(3, -7, 11), glm::dmat3(1, 0.2, 0, -0.3, 0.8, 0.1, 0, 0.4, 1.3)});
   placed("mirrored", {Vec(0), glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1)});
   placed("sheared and mirrored", {Vec(3, -7, 11), glm::dmat3(1, 0.2, 0, -0.3, 0.8, 0.1, 0, 0.4, -1.3)});

@@ -13,7 +13,9 @@
 namespace quincunx {
 namespace {
 
-constexpr double kSameSheet = 0.5;  // cells
+constexpr double kSameSheet = 0.5;     // cells
+constexpr double kFloatSlip = 0x1p-23;  // of a depth kept in a float, relative, with room to spare
+constexpr double kFarSlip = 1e-3;       // cells
 /// A surface is grazed where the value changes along the ray by less than this many bands a cell: depths are then the roots of their errors.
 constexpr double kGrazing = 1e3;
 constexpr double kTwoFloats = 0x1p-44;    // of rays kept in two floats, relative
@@ -107,36 +109,35 @@ Jet Judge::jet(const LatticeRay& ray, double s, const glm::dvec3& aside) const {
   return spline_.evaluate(coefficients_, u);
 }
 
-Judge::Place Judge::place(const Ray& ray, double s, double depth, const Config& config) const {
+Judge::Place Judge::place(const Ray& ray, double s, bool told, const Config& config) const {
   Place p;
   p.s = std::clamp(s, 0.0, ray.lattice.length);
   p.jet = jet(ray.lattice, p.s);
-  const double distance = std::abs(depth) / ray.lattice.scale;  // cells
-  p.slip = 0x1p-23 * distance;
+  const double distance = std::abs(ray.lattice.distance(p.s)) / ray.lattice.scale;  // cells
+  p.slip = told ? kFloatSlip * distance : 0.0;
   const double aside = displacement_ * (config.epsilon / 0x1p-24) + kTwoFloats * distance;
   const double rounding = config.epsilon * local_magnitude(coefficients_, ray.lattice.point(p.s), config.offset);
 
   // The places that may be meant by this one.
   const glm::dvec3 g = normals_ * p.jet.gradient;
   double slope = glm::length(p.jet.gradient), along = 0.0;
+  const double gradient_rounding = spline_.degree() * rounding_ * rounding;
   const auto meant = [&](const Jet& other) {
-    slope = std::max(slope, glm::length(other.gradient));
-    p.turn = std::max(p.turn, angle(g, normals_ * other.gradient));
+    const double size = glm::length(other.gradient);
+    slope = std::max(slope, size);
+    // A piece that is level here has no direction to tell.
+    p.turn = std::max(p.turn, size > gradient_rounding ? angle(g, normals_ * other.gradient) : glm::pi<double>());
   };
   for (const double side : {-1.0, 1.0}) {
     const Jet beside = jet(ray.lattice, p.s + side * (p.slip + aside));
     along = std::max(along, std::abs(beside.value - p.jet.value));
     meant(beside);
-    for (int a = 0; a < 3; ++a) {
-      glm::dvec3 step(0.0);
-      step[a] = side * aside;
-      meant(jet(ray.lattice, p.s, step));
-    }
   }
+  for (int n = 0; n < 27; ++n) meant(jet(ray.lattice, p.s, aside * glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
   p.band = rounding_ * rounding + slope * aside + along;
   double norm = 0.0;
   for (int a = 0; a < 3; ++a) norm += glm::length(normals_[a]);
-  const double size = glm::length(g), off = norm * spline_.degree() * rounding_ * rounding;
+  const double size = glm::length(g), off = norm * gradient_rounding;
   p.turn += (off < size ? std::asin(off / size) : glm::pi<double>()) + kNormalRounding;
   return p;
 }
@@ -196,16 +197,19 @@ Verdict Judge::judge_pixel(const Frame& frame, std::size_t pixel, const std::opt
   if (!hit && !ray->expected) return v;
 
   const double s = hit ? (depth - ray->lattice.entry) / ray->lattice.scale : *ray->expected;
-  const Place here = place(*ray, s, hit ? depth : ray->lattice.distance(s), config);
+  // A depth from so far away that it tells no place: the reference's hit stands for it, if it may be that.
+  const double slip = kFloatSlip * std::abs(depth) / ray->lattice.scale;
+  const bool stands = hit && ray->expected && slip > kFarSlip && std::abs(s - *ray->expected) <= slip;
+  const Place here = place(*ray, stands ? *ray->expected : s, hit && !stands, config);
   const bool grazed = std::abs(glm::dot(here.jet.gradient, ray->lattice.direction)) < kGrazing * here.band;
-  const bool same = hit && ray->expected && std::abs(s - *ray->expected) <= std::max(kSameSheet, 2.0 * here.slip);
+  const bool same = hit && ray->expected && std::abs(s - *ray->expected) <= std::max(kSameSheet, 2.0 * slip);
   if (hit) judge_hit(frame, pixel, *ray, here, v);
   if (same) {
-    if (!grazed) v.depth = std::abs(s - *ray->expected);
+    if (!grazed && !stands) v.depth = std::abs(s - *ray->expected);
     return v;
   }
   double band = here.band;
-  if (hit && ray->expected) band = std::max(band, place(*ray, *ray->expected, ray->lattice.distance(*ray->expected), config).band);
+  if (hit && ray->expected) band = std::max(band, place(*ray, *ray->expected, false, config).band);
   const std::optional<double> certain = decided(*ray, band);
   if (!hit && certain) {
     v.holes = 1;

@@ -55,8 +55,8 @@ class Judge {
 
   Verdict judge_pixel(const Frame& frame, std::size_t pixel, const std::optional<Ray>& ray, const Config& config) const;
   void judge_hit(const Frame& frame, std::size_t pixel, const Ray& ray, const Place& hit, Verdict& verdict) const;
-  /// What is known of the spline at s along a ray, for a picture of that depth there.
-  Place place(const Ray& ray, double s, double depth, const Config& config) const;
+  /// What is known of the spline at s along a ray; `told`: s is made of a picture's depth, a float.
+  Place place(const Ray& ray, double s, bool told, const Config& config) const;
   Jet jet(const LatticeRay& ray, double s, const glm::dvec3& aside = glm::dvec3(0.0)) const;
   /// Where the ray has certainly crossed the isovalue first: gone from below isovalue - band to above isovalue + band, or back.
   std::optional<double> decided(const Ray& ray, double band) const;

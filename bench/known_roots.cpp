@@ -104,7 +104,7 @@ void judge(std::span<const double> b, double root, RootsLine& line) {
   const double part = value / (band + kPlaceRounding * std::max(std::abs(slope), beside));
   line.residual = std::max(line.residual, part);
   line.wrong += part > 1.0;
-  if (!crossings.empty() && std::abs(slope) > 0.1 * m) line.off = std::max(line.off, std::abs(root - crossings.front()));
+  if (!crossings.empty() && !certain.empty() && certain.front() - crossings.front() < 1e-3 && std::abs(slope) > 0.1 * m) line.off = std::max(line.off, std::abs(root - crossings.front()));
 }
 
 void add(RootsLine& line, const RootsLine& more) {

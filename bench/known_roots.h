@@ -25,7 +25,7 @@ struct RootsLine {
   std::uint64_t wrong = 0;       ///< a root where the value is not 0 within rounding
   std::uint64_t undecided = 0;   ///< no certain root, and none found, though the polynomial in double has one; or the other way round
   double residual = 0.0;         ///< the largest |p| at a root found, in parts of what is allowed (docs/stability.md)
-  double off = 0.0;              ///< the largest distance, in [0,1], from the first root in double, where that is simple
+  double off = 0.0;              ///< the largest distance, in [0,1], from the first root in double, where that is simple and certain
   bool passed() const { return missed == 0 && wrong == 0 && residual <= 1.0; }
 };
 

@@ -13,7 +13,8 @@ namespace quincunx {
 namespace {
 
 constexpr double kEpsilon = 0x1p-24;
-constexpr double kLeast = 1e-300;  // of m: all coefficients may be 0
+constexpr double kLeast = 1e-300;          // of m: all coefficients may be 0
+constexpr double kOwnRounding = 0x1p-44;  // of the double-precision spline, relative to its coefficients
 
 /// One volume, as doubles and on the device.
 struct Subject {
@@ -46,10 +47,10 @@ EvaluationError evaluation_error(const Subject& subject, gpu::Device& device, co
     // In the middle of the cell that the kernel takes, so that a gradient that jumps is that of the same cell.
     const glm::dvec3 middle = glm::dvec3(cell_of(u, domain_max(c.lattice, c.extents))) + 0.5;
     const Jet truth = subject.spline.evaluate(subject.coefficients, u + 1e-9 * (glm::min(middle, far) - u));
-    const double m = std::max(local_magnitude(subject.coefficients, u, unit.offset), kLeast);
-    error.value = std::max(error.value, std::abs(unit.value(jets[n].value) - truth.value) / (kEpsilon * m));
-    for (int a = 0; a < 3; ++a)
-      error.gradient = std::max(error.gradient, std::abs(unit.scale * jets[n].gradient[a] - truth.gradient[a]) / (kEpsilon * m));
+    const double m = std::max(local_magnitude(subject.coefficients, u, unit.offset), kLeast), own = kOwnRounding * local_magnitude(subject.coefficients, u, 0.0);
+    const auto off = [&](double found, double expected) { return std::max(std::abs(found - expected) - own, 0.0) / (kEpsilon * m); };
+    error.value = std::max(error.value, off(unit.value(jets[n].value), truth.value));
+    for (int a = 0; a < 3; ++a) error.gradient = std::max(error.gradient, off(unit.scale * jets[n].gradient[a], truth.gradient[a]));
   }
   return error;
 }
