@@ -78,7 +78,7 @@ struct Judge::Place {
 
 Judge::Judge(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells)
     : spline_(spline), coefficients_(coefficients), isovalue_(scene.isosurfaces.front().isovalue), rounding_(kernel_rounding(spline)),
-      displacement_(ray_displacement(cell_count(coefficients.lattice, coefficients.extents))), width_(scene.width), height_(scene.height) {
+      width_(scene.width), height_(scene.height) {
   assert(scene.isosurfaces.size() == 1);
   const CameraFrame camera = camera_frame(scene.camera, width_, height_);
   const RaySpace space = ray_space(coefficients.lattice, coefficients.extents, coefficients.world, scene.camera.eye);
@@ -104,6 +104,11 @@ Judge::Judge(const Spline& spline, const Coefficients<double>& coefficients, con
   });
 }
 
+double Judge::displacement(const Config& config) const {
+  const glm::i64vec3 own = cell_count(coefficients_.lattice, coefficients_.extents);
+  return ray_displacement(glm::max(own, config.cells)) * (config.epsilon / 0x1p-24);
+}
+
 Jet Judge::jet(const LatticeRay& ray, double s, const glm::dvec3& aside) const {
   const glm::dvec3 u = glm::clamp(ray.point(std::clamp(s, 0.0, ray.length)) + aside, glm::dvec3(0.0), far_);
   return spline_.evaluate(coefficients_, u);
@@ -115,7 +120,7 @@ Judge::Place Judge::place(const Ray& ray, double s, bool told, const Config& con
   p.jet = jet(ray.lattice, p.s);
   const double distance = std::abs(ray.lattice.distance(p.s)) / ray.lattice.scale;  // cells
   p.slip = told ? kFloatSlip * distance : 0.0;
-  const double aside = displacement_ * (config.epsilon / 0x1p-24) + kTwoFloats * distance;
+  const double aside = displacement(config) + kTwoFloats * distance;
   const double rounding = config.epsilon * local_magnitude(coefficients_, ray.lattice.point(p.s), config.offset);
 
   // The places that may be meant by this one.
@@ -213,7 +218,7 @@ Verdict Judge::judge_pixel(const Frame& frame, std::size_t pixel, const std::opt
   const std::optional<double> certain = decided(*ray, band);
   if (!hit && certain) {
     v.holes = 1;
-  } else if (hit && (v.residual > 1.0 || (certain && s > *certain + here.slip + 2.0 * displacement_))) {
+  } else if (hit && (v.residual > 1.0 || (certain && s > *certain + here.slip + 2.0 * displacement(config)))) {
     v.wrong = 1;
   } else {
     v.undecided = 1;

@@ -37,6 +37,7 @@ class Judge {
   struct Config {
     double epsilon = 0x1p-24;  ///< half a unit in the last place, relative, of the arithmetic that is judged
     double offset = 0.0;       ///< that coefficients are less before they are rounded (ValueUnit)
+    glm::i64vec3 cells{0};     ///< of the volume that is rendered, where the one that is judged by is a part of it
   };
 
   /// Keeps references. `scene` has one isosurface. `cells` may be null, or the bounds of this spline, which change nothing but the time.
@@ -57,13 +58,15 @@ class Judge {
   void judge_hit(const Frame& frame, std::size_t pixel, const Ray& ray, const Place& hit, Verdict& verdict) const;
   /// What is known of the spline at s along a ray; `told`: s is made of a picture's depth, a float.
   Place place(const Ray& ray, double s, bool told, const Config& config) const;
+  /// How far a point that is computed may be from the one that is meant, cells.
+  double displacement(const Config& config) const;
   Jet jet(const LatticeRay& ray, double s, const glm::dvec3& aside = glm::dvec3(0.0)) const;
   /// Where the ray has certainly crossed the isovalue first: gone from below isovalue - band to above isovalue + band, or back.
   std::optional<double> decided(const Ray& ray, double band) const;
 
   const Spline& spline_;
   const Coefficients<double>& coefficients_;
-  double isovalue_, rounding_, displacement_;
+  double isovalue_, rounding_;
   int width_, height_;
   glm::dmat3 normals_;  ///< gradients of lattice coordinates to those of the world
   glm::dvec3 far_;

@@ -19,6 +19,7 @@
 namespace quincunx {
 namespace {
 
+constexpr const char* kIndexGroup = "index";
 constexpr const char* kRootsGroup = "roots";
 constexpr const char* kWatertightGroup = "watertight";
 
@@ -31,10 +32,10 @@ struct StabilityFlags {
   bool markdown = false;
   Verbosity verbosity = Verbosity::normal;
 
-  /// Those of the catalogue and the two that are no pictures of cases.
+  /// Those of the catalogue, and what is measured in other ways.
   static std::vector<std::string> all_groups() {
     std::vector<std::string> all(stability_groups().begin(), stability_groups().end());
-    all.insert(all.end(), {kRootsGroup, kWatertightGroup});
+    all.insert(all.end(), {kIndexGroup, kRootsGroup, kWatertightGroup});
     return all;
   }
   bool wants(const std::string& group) const { return std::find(groups.begin(), groups.end(), group) != groups.end(); }
@@ -62,7 +63,7 @@ std::vector<std::string> parse_names(const std::string& text, std::string_view f
 }
 
 StabilityPlan cases_plan(const StabilityFlags& flags) {
-  StabilityPlan plan{.cases = {}, .splines = flags.splines, .device = flags.device, .step = flags.step, .points = flags.points, .seed = std::uint32_t(flags.seed)};
+  StabilityPlan plan{.cases = {}, .splines = flags.splines, .device = flags.device, .step = flags.step, .huge = flags.wants(kIndexGroup), .points = flags.points, .seed = std::uint32_t(flags.seed)};
   for (const std::string_view group : stability_groups()) {
     if (!flags.wants(std::string(group))) continue;
     const std::vector<StabilityCase> cases = stability_cases(group);

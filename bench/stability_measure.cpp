@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "bench/huge_volume.h"
 #include "bench/open_device.h"
 #include "render/device_probe.h"
 #include "render/device_renderer.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-24;
 constexpr double kLeast = 1e-300;          // of m: all coefficients may be 0
+constexpr std::size_t kHugeWeight = 200;   // of the progress, in cases
 constexpr double kOwnRounding = 0x1p-44;  // of the double-precision spline, relative to its coefficients
 
 /// One volume, as doubles and on the device.
@@ -94,12 +96,18 @@ StabilityLine measure_case(const StabilityCase& c, const std::string& name, cons
 void measure_stability(const StabilityPlan& plan, std::vector<StabilityLine>& lines, std::string& device, const Progress& progress) {
   const auto kernels = std::make_shared<KernelCache>(open_device(plan.device));
   device = gpu::info(kernels->device()).name;
-  const double all = double(plan.cases.size() * plan.splines.size());
+  const double all = double((plan.cases.size() + (plan.huge ? kHugeWeight : 0)) * plan.splines.size());
   for (const StabilityCase& c : plan.cases)
     for (const std::string& spline : plan.splines) {
       report(progress, double(lines.size()) / all);
       lines.push_back(measure_case(c, spline, kernels, plan));
     }
+  if (plan.huge) {
+    for (std::size_t n = 0; n < plan.splines.size(); ++n) {
+      const double before = double(plan.cases.size() * plan.splines.size() + n * kHugeWeight);
+      lines.push_back(measure_huge(plan.splines[n], kernels, [&](double done) { report(progress, (before + kHugeWeight * done) / all); }));
+    }
+  }
   report(progress, 1.0);
 }
 

@@ -8,7 +8,7 @@
 #include "bench/catalogue.h"
 #include "bench/judge.h"
 #include "lattice/progress.h"
-#include "render/renderer.h"
+#include "render/kernel_cache.h"
 
 namespace quincunx {
 
@@ -27,6 +27,7 @@ struct StabilityLine {
   Verdict exact, march;  ///< of all views; march, at `step` cells, for comparison alone
 
   bool passed() const { return evaluation.passed() && exact.passed(); }
+  bool marched() const { return march.rays > 0; }
 };
 
 struct StabilityPlan {
@@ -34,6 +35,7 @@ struct StabilityPlan {
   std::vector<std::string> splines;
   std::string device;
   double step = 0.25;      ///< of the march, cells
+  bool huge = false;       ///< also a volume of more than 2^31 samples (bench/huge_volume.h)
   int points = 2000;       ///< where values are compared
   std::uint32_t seed = 1;  ///< of the points
 };

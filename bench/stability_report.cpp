@@ -31,7 +31,7 @@ StabilitySection cases_section(const StabilityReport& report) {
     section.table.rows.push_back({line.group, line.name, line.spline, short_number(line.evaluation.value), short_number(line.evaluation.gradient),
                                   fmt::format("{}", v.rays), fmt::format("{}", v.expected), fmt::format("{}", v.holes), fmt::format("{}", v.wrong),
                                   fmt::format("{}", v.undecided), fmt::format("{}", v.not_finite), short_number(v.depth), short_number(v.residual),
-                                  short_number(v.normal), short_number(v.normal_part), fmt::format("{}", lost(line.march)), passed_text(line.passed())});
+                                  short_number(v.normal), short_number(v.normal_part), line.marched() ? fmt::format("{}", lost(line.march)) : "-", passed_text(line.passed())});
   }
   return section;
 }

@@ -29,8 +29,8 @@ class Bcc7 final : public Spline {
                            const glm::dvec3& b, std::span<double> bernstein) const override;
   Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                     const Progress& progress = {}) const override;
-  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit,
-                                         const Progress& progress) const override;
+  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
+                                         const Progress& progress = {}) const override;
 
   /// The Bernstein coefficients of the spline on a tetrahedron of the domain: c convolved with the net
   /// (bcc7_net.h), by exact integer weights in one fixed order and one scaling.

@@ -25,8 +25,8 @@ class Tricubic final : public Spline {
                            const glm::dvec3& b, std::span<double> bernstein) const override;
   Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                     const Progress& progress = {}) const override;
-  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit,
-                                         const Progress& progress) const override;
+  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
+                                         const Progress& progress = {}) const override;
 };
 
 }  // namespace quincunx

@@ -27,8 +27,8 @@ class Trilinear final : public Spline {
   /// The samples, whatever the prefilter: they are interpolated.
   Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                     const Progress& progress = {}) const override;
-  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit,
-                                         const Progress& progress) const override;
+  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
+                                         const Progress& progress = {}) const override;
 };
 
 }  // namespace quincunx
