@@ -225,7 +225,7 @@ void read_ascii(InputFile& file, const NrrdHeader& header, Sink& sink, const Pro
       const std::optional<T> sample = parse_sample<T>(word);
       if (!sample) {
         throw InputError(fmt::format("{}: sample {} is {}, expected a number of type {}", file.path(), number,
-                                     quoted(word), sample_type_name(header.type)));
+                                     in_quotes(word), sample_type_name(header.type)));
       }
       to = *sample;
       ++number;

@@ -86,18 +86,18 @@ void add_line(NrrdText& text, std::set<std::string>& keys, std::string_view line
   const std::size_t assignment = line.find(":=");
   if (assignment == std::string_view::npos || assignment == 0) {
     refuse_line(fmt::format("found {}, expected 'field: value' with a field of the NRRD format, or 'key:=value'",
-                            quoted(line)));
+                            in_quotes(line)));
   }
   std::string key = unescape(line.substr(0, assignment));
   if (!keys.insert(key).second) {
-    refuse_line(fmt::format("key {} for the second time, expected it once", quoted(key)));
+    refuse_line(fmt::format("key {} for the second time, expected it once", in_quotes(key)));
   }
   text.pairs.emplace_back(std::move(key), unescape(line.substr(assignment + 2)));
 }
 
 void check_magic(std::string_view line, const std::string& path) {
   if (line.size() == 8 && line.substr(0, 7) == "NRRD000" && line[7] >= '1' && line[7] <= '5') return;
-  throw InputError(fmt::format("{}: found {} at the beginning, expected NRRD0001 to NRRD0005", path, quoted(line)));
+  throw InputError(fmt::format("{}: found {} at the beginning, expected NRRD0001 to NRRD0005", path, in_quotes(line)));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ const std::string* NrrdText::optional(const std::string& name) const {
 }
 
 void NrrdText::refuse(const std::string& name, std::string_view expected) const {
-  throw InputError(fmt::format("{}: field '{}': found {}, expected {}", path, name, quoted(required(name)), expected));
+  throw InputError(fmt::format("{}: field '{}': found {}, expected {}", path, name, in_quotes(required(name)), expected));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -131,7 +131,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string shown = "'";
   for (const char c : text.substr(0, longest)) {

@@ -48,7 +48,7 @@ NrrdText read_nrrd_text(InputFile& file);
 std::string escape_nrrd(std::string_view text);
 
 /// `text` in quotes for a message: one line, printable, shortened.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// `text` without white space at its ends, and in lower case.
 std::string_view trimmed(std::string_view text);
