@@ -15,7 +15,8 @@ namespace quincunx {
 /// floats computes there or, at a point of the cell's boundary, from a neighbouring cell.
 ///
 /// The interval is the range of the Bernstein-Bezier net over the cell (convex hull property), widened by the
-/// rounding margin of its spline (bounds.cpp), then rounded outwards to 16 bits on its scale.
+/// rounding margin of its spline (bounds.cpp), then rounded outwards to 16 bits on its scale. An empty one (min > max) has no value that
+/// could be seen: that of a void cell (void_cells.h).
 struct CellBounds : ValueScale {
   glm::i64vec3 cells{0};  ///< cell_count of the volume
   std::vector<std::uint16_t> min, max;  ///< x fastest

@@ -15,7 +15,7 @@ namespace quincunx {
 struct BlockBounds {
   int block = 1;                ///< edge in cells, a power of two, 1..256
   glm::i64vec3 blocks{0};
-  std::vector<std::uint16_t> min, max;  ///< quantised like CellBounds, x fastest
+  std::vector<std::uint16_t> min, max;  ///< quantised like CellBounds, x fastest; min > max where all cells are void
 };
 BlockBounds block_bounds(const CellBounds& cells, int block);
 /// Throws InputError naming --block unless blocks may be of that size.
@@ -26,7 +26,7 @@ BlockBounds coarser(const BlockBounds& blocks, int block);
 /// Block levels for ranges of values.
 struct Classification {
   /// A block that may hold something. Any other level is the number of ranges below every value in the block:
-  /// between which two ranges it lies.
+  /// between which two ranges it lies; of a block without values, all of it void, it says nothing.
   static constexpr std::uint8_t active = 255;
 
   int block = 1;

@@ -18,8 +18,12 @@ constexpr std::size_t kFewWindows = 8;  // up to here a vectorised comparison wi
 /// The same as Thresholds::touches of `n` intervals: mask[x] = 1 where interval x touches a range, else 0.
 void touching_windows(const Thresholds& thresholds, const std::uint16_t* min, const std::uint16_t* max, std::int64_t n, std::uint8_t* mask) {
   std::memset(mask, 0, std::size_t(n));
-  for (const auto [highest_min, lowest_max] : thresholds.windows())
+  for (const auto [highest_min, lowest_max] : thresholds.windows()) {
     for (std::int64_t x = 0; x < n; ++x) mask[x] |= std::uint8_t((min[x] <= highest_min) & (max[x] >= lowest_max));
+    // A range of all values there are: only here an empty interval, 65535 to 0, would count.
+    if (highest_min == 65535 && lowest_max == 0)
+      for (std::int64_t x = 0; x < n; ++x) mask[x] &= std::uint8_t(min[x] <= max[x]);
+  }
 }
 
 /// The lowest bits of 4 bytes as 4 bits. Byte k's bit moves from 8k to 24 + k, and no two products meet.

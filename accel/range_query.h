@@ -77,14 +77,14 @@ decltype(auto) with_range_query(RangeQueryKind kind, std::span<const std::uint8_
 constexpr int kNumbersOfAnEntry = 16;
 std::vector<std::uint8_t> visible_entries(const Thresholds& thresholds);
 
-/// Calls `use` with a function of two 16-bit numbers, min and max: may the values between them meet a range? `intervals` compares the
+/// Calls `use` with a function of two 16-bit numbers, min and max: may the values between them, if there are any, meet a range? `intervals` compares the
 /// numbers themselves, exactly; the others look up entries and hold a little more to be visible.
 template <class Use>
 decltype(auto) with_range_test(RangeQueryKind kind, const Thresholds& thresholds, const Use& use) {
   if (kind == RangeQueryKind::intervals)
     return use([&](std::uint16_t min, std::uint16_t max) { return thresholds.touches(min, max); });
   return with_range_query(kind, visible_entries(thresholds), [&](const auto& query) {
-    return use([&](std::uint16_t min, std::uint16_t max) { return query.any(min / kNumbersOfAnEntry, max / kNumbersOfAnEntry); });
+    return use([&](std::uint16_t min, std::uint16_t max) { return min <= max && query.any(min / kNumbersOfAnEntry, max / kNumbersOfAnEntry); });
   });
 }
 

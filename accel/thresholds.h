@@ -10,13 +10,13 @@
 namespace quincunx {
 
 /// Compares quantised intervals with ranges of values exactly: value(q) as the scale computes it, in double.
-/// An interval touches a range where value(min) <= high and low <= value(max).
+/// An interval touches a range where value(min) <= high and low <= value(max); an empty one (min > max) touches none.
 class Thresholds {
  public:
   /// `ranges` ascend and are disjoint. Throws InputError, naming --iso, where there are more than 254 (those of transfer functions are joined before).
   Thresholds(const ValueScale& scale, std::span<const ValueRange> ranges);
 
-  /// An interval touches this range where min <= highest_min and max >= lowest_max.
+  /// An interval that is not empty touches this range where min <= highest_min and max >= lowest_max.
   struct Window {
     std::uint16_t highest_min, lowest_max;
   };
@@ -27,7 +27,7 @@ class Thresholds {
   std::uint8_t below(std::uint16_t q) const { return below_[q]; }
   /// Number of ranges that begin at or below value(q).
   std::uint8_t up_to(std::uint16_t q) const { return up_to_[q]; }
-  bool touches(std::uint16_t min, std::uint16_t max) const { return up_to(max) > below(min); }
+  bool touches(std::uint16_t min, std::uint16_t max) const { return min <= max && up_to(max) > below(min); }
 
  private:
   std::vector<Window> windows_;

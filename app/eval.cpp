@@ -9,9 +9,11 @@
 #include <memory>
 #include <stdexcept>
 
+#include "accel/void_cells.h"
 #include "app/command.h"
 #include "app/evaluate_float.h"
 #include "app/flags.h"
+#include "app/nan_flag.h"
 #include "app/points_file.h"
 #include "app/volume_input.h"
 #include "spline/spline.h"
@@ -25,6 +27,7 @@ struct EvalFlags {
   std::string volume, points;
   Precision precision = Precision::exact_double;
   Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+  NanPolicy nan;
   Verbosity verbosity = Verbosity::normal;
 };
 
@@ -37,12 +40,14 @@ ValueUnit unit_of(const Volume& volume) {
 /// The spline of a volume, evaluated in the world.
 class WorldSpline {
  public:
-  WorldSpline(const Volume& volume, const EvalFlags& flags, const Progress& progress)
+  /// Makes the volume's samples finite.
+  WorldSpline(Volume& volume, const EvalFlags& flags, const Progress& progress)
       : spline_(make_spline("bcc7")),
         precision_(flags.precision),
         origin_(volume.world.origin),
         inverse_axes_(glm::inverse(volume.world.axes)),
-        far_(domain_max(volume.lattice, volume.extents)) {
+        far_(domain_max(volume.lattice, volume.extents)),
+        voids_(make_finite(volume, *spline_, flags.nan)) {
     if (precision_ == Precision::exact_double) {
       coefficients_ = spline_->coefficients(volume, flags.prefilter, progress);
     } else {
@@ -50,7 +55,7 @@ class WorldSpline {
     }
   }
 
-  /// Value and gradient per world unit at x (world); NaN outside the domain. A point outside by no more than the
+  /// Value and gradient per world unit at x (world); NaN outside the domain and in void cells. A point outside by no more than the
   /// rounding of its own coordinates counts as on the border.
   Jet operator()(const glm::dvec3& x) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -58,6 +63,7 @@ class WorldSpline {
     const glm::dvec3 inside = glm::clamp(u, glm::dvec3(0.0), far_);
     const double slack = 1e-12 * std::max({1.0, far_.x, far_.y, far_.z});
     if (!glm::all(glm::lessThanEqual(glm::abs(u - inside), glm::dvec3(slack)))) return {nan, glm::dvec3(nan)};
+    if (voids_.at(cell_of(inside, glm::i64vec3(far_)))) return {nan, glm::dvec3(nan)};
     const Jet jet = precision_ == Precision::exact_double ? spline_->evaluate(coefficients_, inside)
                                                           : evaluate_float(*spline_, float_coefficients_, inside);
     return {jet.value, glm::transpose(inverse_axes_) * jet.gradient};
@@ -71,6 +77,7 @@ class WorldSpline {
   glm::dvec3 origin_;
   glm::dmat3 inverse_axes_;
   glm::dvec3 far_;
+  VoidCells voids_;
 };
 
 /// Reads all of the file, so that a bad line is found before anything is printed; the number of its points.
@@ -96,7 +103,7 @@ void eval(const EvalFlags& flags) {
   constexpr std::size_t chunk = 8192;
   ProgressBar bar(flags.verbosity);
   const std::uint64_t count = count_points(flags.points);
-  const Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"));
+  Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"), flags.nan);
   const WorldSpline spline(volume, flags, bar.stage("prefilter"));
 
   const Progress progress = bar.stage("evaluating");
@@ -126,7 +133,7 @@ Command eval_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("eval", "Print value and gradient of the spline at given points");
   app->footer(
       "Prints CSV, 17 significant digits: x,y,z,value,gx,gy,gz; world coordinates, the gradient per world unit.\n"
-      "A point outside the domain gets nan.\n"
+      "A point outside the domain gets nan, and with --nan empty one in a cell where a sample that is not finite has a weight.\n"
       "--precision double: coefficients and evaluation in double, the reference that kernels are compared with.\n"
       "--precision float: coefficients and weights rounded to 32-bit floats, multiplied and added in floats; the\n"
       "  weights are found in double, so this is the least that single precision loses, not a kernel's own order.");
@@ -139,6 +146,7 @@ Command eval_command(CLI::App& program) {
   app->add_flag_callback(
       "--no-prefilter", [flags] { flags->prefilter = Spline::Prefilter::none; },
       "Take the samples themselves as coefficients");
+  add_nan(*app, flags->nan);
   add_quiet(*app, flags->verbosity);
   return {app, [flags] { eval(*flags); }};
 }

@@ -98,7 +98,7 @@ Opened open_volume(const RenderFlags& flags, ProgressBar& bar) {
     opened.source = std::make_shared<SampleFile>(flags.volume, SampleFile::Config{flags.scratch}, bar.stage("unpacking"));
     opened.volume = opened.source->header();
   } else {
-    opened.volume = read_finite_volume(flags.volume, bar.stage("reading"));
+    opened.volume = read_finite_volume(flags.volume, bar.stage("reading"), flags.config.nan);
   }
   opened.read_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return opened;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/flags.h"
+#include "app/nan_flag.h"
 #include "app/values.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
@@ -102,6 +103,7 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
          "--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
          "Take the samples themselves as coefficients")
       ->group(group);
+  add_nan(app, flags.config.nan)->group(group);
   add_skip_flags(app, flags.skip, group);
   const auto pool = [&flags](const std::string& text) { flags.config.pool_bytes = parse_bytes(text, "--pool"); };
   add_parsed(app, "--pool", pool, "BYTES", "", "Read the volume brick by brick and keep at most so much of it on the device: 256M, 2G")

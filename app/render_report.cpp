@@ -117,6 +117,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["blocks"] = stats.blocks;
   json["active_blocks"] = stats.active_blocks;
   json["active_cells"] = stats.active_cells;
+  json["void_cells"] = stats.void_cells;
   json["leaves"] = stats.leaves;
   json["nodes"] = stats.nodes;
   json["depth"] = stats.depth;

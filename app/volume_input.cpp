@@ -19,14 +19,14 @@ std::string bcc_path(const std::string& path) {
 
 }  // namespace
 
-Volume read_finite_volume(const std::string& path, const Progress& progress) {
+Volume read_finite_volume(const std::string& path, const Progress& progress, const NanPolicy& nan) {
   Volume volume = read_volume(path, progress);
-  check_finite(sample_range(volume), volume, path);
+  if (nan.kind == NanPolicy::Kind::refuse) check_finite(sample_range(volume), volume, path);
   return volume;
 }
 
-Volume read_bcc_volume(const std::string& path, const Progress& progress) {
-  Volume volume = read_finite_volume(path, progress);
+Volume read_bcc_volume(const std::string& path, const Progress& progress, const NanPolicy& nan) {
+  Volume volume = read_finite_volume(path, progress, nan);
   if (volume.lattice != LatticeKind::bcc) {
     throw InputError(
         fmt::format("{}: found a Cartesian volume, expected a BCC one; make one of its even and odd points: "

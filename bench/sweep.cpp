@@ -11,6 +11,7 @@
 
 #include "accel/structure.h"
 #include "app/flags.h"
+#include "app/nan_flag.h"
 #include "app/render_flags.h"
 #include "app/values.h"
 #include "app/volume_input.h"
@@ -106,7 +107,7 @@ void sweep(const SweepFlags& flags) {
   OutputFolder folder(flags.folder);
   ProgressBar bar(flags.verbosity);
   const Scene scene = make_scene(flags.scene);
-  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"));
+  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"), flags.scene.config.nan);
   const auto renderer = make_renderer(flags.device, volume, flags.scene.config);
   folder.prepare({"sweep.csv", "sweep.json", "sweep.md", "sweep.svg"});
 
@@ -146,6 +147,7 @@ void add_scene_flags(CLI::App& app, RenderFlags& flags) {
   add_intersect(app, flags);
   add_step(app, flags);
   add_spline(app, flags);
+  add_nan(app, flags.config.nan);
   add_volume_flags(app, flags.look);
 }
 

@@ -4,6 +4,7 @@
 
 #include "accel/bricks.h"
 #include "bench/sweep_measure.h"
+#include "lattice/error.h"
 #include "lattice/sample_source.h"
 
 namespace quincunx {
@@ -86,6 +87,9 @@ void time_round(Turns& turns, std::size_t views, std::vector<BricksMeasurement>&
 }  // namespace
 
 void check_bricks(const BricksPlan& plan, const Volume& volume) {
+  if (plan.bricks.empty()) return;
+  if (plan.config.nan.kind == NanPolicy::Kind::empty && may_not_be_finite(volume))
+    throw InputError("--nan: found empty for bricks (--bricks), expected fill=V or refuse");
   const std::string spline = plan.config.spline.empty() ? std::string(default_spline(volume.lattice)) : plan.config.spline;
   for (const int brick : plan.bricks) BrickLayout(volume.lattice, volume.extents, make_spline(spline)->apron(), brick).slots(plan.pool_bytes);
 }

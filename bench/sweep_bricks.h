@@ -34,7 +34,8 @@ struct BricksMeasurement {
   std::uint64_t differing_pixels = 0;  ///< of all views, against the whole volume's, bit for bit
 };
 
-/// Throws InputError naming --pool where a pool holds not even one brick of some size, or more than can be numbered: before anything is measured.
+/// Throws InputError naming --pool where a pool holds not even one brick of some size, or more than can be numbered, and --nan where void cells
+/// were asked for, which bricks do not have: before anything is measured.
 void check_bricks(const BricksPlan& plan, const Volume& volume);
 
 /// Renders each view once untimed, the whole volume by `whole` (of plan.config) and through a pool of each kind of brick, compares the

@@ -50,7 +50,9 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared
                                const Config& config, const DeviceLimits& limits)
     : DeviceRenderer(std::move(kernels), source->header(), config, limits) {
   assert(config.pool_bytes);
-  source_ = std::move(source);
+  if (config.nan.kind == NanPolicy::Kind::empty && may_not_be_finite(volume_))
+    throw InputError("--nan: found empty for a volume that is read brick by brick (--pool), expected fill=V or refuse");
+  source_ = config.nan.kind == NanPolicy::Kind::fill ? filled_source(std::move(source), config.nan.value) : std::move(source);
   what_ = what;
 }
 
@@ -102,6 +104,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.stub = request.scene.stub_sampling;
   v.cost = request.scene.cost || v.stub;
   v.bricks = source_ != nullptr;
+  v.voids = voids_ && voids_->count > 0;
   v.coefficient_buffers = layout.buffers;
   v.coefficient_shift = layout.shift;
   return v;
@@ -109,6 +112,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
 
 std::vector<Feature> DeviceRenderer::explain(const Request& request) {
   RenderStats unused;
+  prepare_samples(unused);
   Request completed = request;
   const SkipChoice choice = complete(request, unused, {});
   completed.skip = choice.config;
@@ -124,6 +128,15 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
 
 // ---- stages, each done only when what it depends on has changed ----
 
+void DeviceRenderer::prepare_samples(RenderStats& stats) {
+  if (voids_) return;
+  const Stopwatch watch;
+  voids_ = source_ ? VoidCells{} : make_finite(volume_, *spline_, config_.nan);
+  stats.prefilter_ms += watch.ms();
+  if (voids_->count > 0)
+    void_buffer_ = gpu::create_filled(device_, bytes_of(voids_->words), gpu::BufferUse::texel, "voids", VK_FORMAT_R32G32_UINT);
+}
+
 void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& progress) {
   if (coefficients_) return;
   check_cells();
@@ -136,10 +149,11 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
     return;
   }
   coefficient_layout();
+  prepare_samples(stats);
   const Stopwatch prefilter;
   const SampleRange range = sample_range(volume_);
   coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, float_unit(volume_.type(), range.min, range.max), progress);
-  stats.prefilter_ms = prefilter.ms();
+  stats.prefilter_ms += prefilter.ms();
   volume_.samples = {};
 
   const Stopwatch upload;
@@ -157,7 +171,9 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
     bounds_.emplace(streamed.scale, std::move(streamed.blocks));
     skipping_.emplace(device_);
   } else {
-    bounds_.emplace(cell_bounds(*spline_, *coefficients_, progress));
+    CellBounds cells = cell_bounds(*spline_, *coefficients_, progress);
+    leave_out(*voids_, cells);
+    bounds_.emplace(std::move(cells));
   }
   stats.bounds_ms = watch.ms();
 }
@@ -230,7 +246,7 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
   gpu::Resources all = skipping_->resources();
   all.insert(all.end(), {{"uniforms", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
-                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}});
+                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}, {"voids", void_buffer_}});
   if (bricks_) all.emplace_back("Parked", band.parked);
   const gpu::Resources coefficients = bricks_ ? bricks_->resources() : texels_.resources();
   all.insert(all.end(), coefficients.begin(), coefficients.end());
@@ -246,6 +262,7 @@ TraceParameters DeviceRenderer::make_parameters(const Scene& scene) {
   TraceParameters p = trace_parameters(scene, *coefficients_);
   skipping_->set_parameters(p);
   if (bricks_) bricks_->set_parameters(p);
+  if (voids_ && voids_->count > 0) p.bricks = ivec4(glm::ivec3(voids_->bricks), 0);
   p.bricks.w = int(rays_per_lane());
   parameters_ = gpu::create_buffer(device_, sizeof p, gpu::BufferUse::uniform, "parameters");
   return p;
@@ -343,6 +360,8 @@ void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   }
   skipping_->describe(stats);
   stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes + band.parked.bytes);
+  stats.void_cells = voids_ ? voids_->count : 0;
+  if (void_buffer_.bytes > 0) stats.device_bytes.emplace_back("void cells", void_buffer_.bytes);
   if (transfer_table_.bytes > 0) stats.device_bytes.emplace_back("transfer table", transfer_table_.bytes);
   stats.device_bytes.emplace_back("parameters", parameters_.bytes + isosurfaces_.bytes);
 }

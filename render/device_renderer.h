@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "accel/void_cells.h"
 #include "gpu/gpu.h"
 #include "render/coefficient_texels.h"
 #include "render/device_bricks.h"
@@ -41,6 +42,8 @@ class DeviceRenderer final : public Renderer {
     gpu::Buffer color, hit, cost, rays, parked;
   };
 
+  /// Makes the samples finite, as config_.nan says, and finds the void cells.
+  void prepare_samples(RenderStats& stats);
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   /// Where nothing is skipped: throws InputError for samples of the source that are not finite, as prepare_bounds does.
@@ -78,6 +81,7 @@ class DeviceRenderer final : public Renderer {
   DeviceLimits limits_;
   std::unique_ptr<Spline> spline_;
   Volume volume_;  ///< until the coefficients are made
+  std::optional<VoidCells> voids_;
   std::optional<Coefficients<float>> coefficients_;  ///< without data where there is a source
   CoefficientTexels texels_;
   std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
@@ -87,7 +91,7 @@ class DeviceRenderer final : public Renderer {
 
   std::optional<VolumeBounds> bounds_;
   std::optional<DeviceSkipping> skipping_;
-  gpu::Buffer isosurfaces_, transfer_table_, parameters_;
+  gpu::Buffer isosurfaces_, transfer_table_, parameters_, void_buffer_;
   std::optional<DirectVolume> tabled_;  ///< what transfer_table_ was made for
 };
 

@@ -43,6 +43,8 @@ constexpr Part kParts[] = {
     {kSkipPart, "SKIP", "skip_step", skips, "--skip names it", "--skip none: no structure is bound"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
+    {"void cells", "VOIDS", "is_void", [](const KernelVariant& v) { return v.voids && !v.stub; }, "--nan empty, and samples are not finite",
+     "every sample is finite, or --nan is not empty"},
     {"brick pool", "BRICKS", "brick_resident", [](const KernelVariant& v) { return v.bricks && !v.stub; }, "--pool", "all coefficients are on the device: no page table"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
     {"traversal alone", nullptr, "traverse", [](const KernelVariant& v) { return v.stub; }, "--stub-sampling", "samples are evaluated"},

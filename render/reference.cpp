@@ -20,13 +20,13 @@ constexpr int kTile = 16;
 /// One picture in the making.
 class Painter {
  public:
-  Painter(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells)
+  Painter(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells, const VoidCells* voids)
       : spline_(spline),
         coefficients_(coefficients),
         scene_(scene),
         surfaces_(visible_surfaces(scene)),
-        tracer_(spline, coefficients, isovalues_of(surfaces_), cells, {scene.intersect, scene.step}),
-        volume_(scene.volume ? std::optional<ReferenceVolume>(std::in_place, spline, coefficients, *scene.volume, scene.ambient) : std::nullopt),
+        tracer_(spline, coefficients, isovalues_of(surfaces_), cells, {scene.intersect, scene.step}, voids),
+        volume_(scene.volume ? std::optional<ReferenceVolume>(std::in_place, spline, coefficients, *scene.volume, scene.ambient, voids) : std::nullopt),
         frame_(camera_frame(scene.camera, scene.width, scene.height)),
         space_(ray_space(coefficients.lattice, coefficients.extents, coefficients.world, scene.camera.eye)) {
     const std::size_t pixels = std::size_t(scene.width) * scene.height;
@@ -59,7 +59,7 @@ class Painter {
     Composite composite;
     RayCost cost;
     bool first = true;
-    ReferenceVolume::March march = volume_ ? volume_->begin(i, j) : ReferenceVolume::March{};
+    ReferenceVolume::March march = volume_ && ray ? volume_->begin(i, j, *ray) : ReferenceVolume::March{};
     const auto see_volume = [&](double end) {
       if (volume_) volume_->integrate(*ray, direction, end, march, composite, cost);
       return !volume_ || !volume_->opaque(composite);
@@ -110,9 +110,9 @@ class Painter {
 }  // namespace
 
 Frame render_reference(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene,
-                       const CellBounds* cells, const Progress& progress) {
+                       const CellBounds* cells, const Progress& progress, const VoidCells* voids) {
   check_scene(scene);
-  Painter painter(spline, coefficients, scene, cells);
+  Painter painter(spline, coefficients, scene, cells, voids);
   // Paint a batch of tiles at a time, in parallel; between batches this thread reports.
   const int tiles = painter.tiles();
   const int batch = std::max(64, 16 * tbb::this_task_arena::max_concurrency());

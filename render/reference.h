@@ -1,7 +1,7 @@
 // The double-precision caster on the CPU: the truth that the kernels are compared with, and `--device cpu`.
 #pragma once
 
-#include "accel/classification.h"
+#include "accel/void_cells.h"
 #include "lattice/progress.h"
 #include "render/scene.h"
 #include "spline/spline.h"
@@ -16,8 +16,8 @@ namespace quincunx {
 /// f - isovalue inside the domain, f equal to the isovalue counting as above it.
 ///
 /// `cells` may be null (nothing is skipped) or the bounds of the same spline, which then decide which cells
-/// are looked at and change nothing in the picture.
+/// are looked at and change nothing in the picture. Nothing is seen in the cells of `voids`; null: there are none.
 Frame render_reference(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene,
-                       const CellBounds* cells, const Progress& progress = {});
+                       const CellBounds* cells, const Progress& progress = {}, const VoidCells* voids = nullptr);
 
 }  // namespace quincunx

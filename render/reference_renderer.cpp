@@ -27,6 +27,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   stats.device = "cpu (double precision)";
   if (!coefficients_) {
     const Stopwatch watch;
+    voids_ = make_finite(volume_, *spline_, config_.nan);
     coefficients_ = spline_->coefficients(volume_, config_.prefilter, progress);
     stats.prefilter_ms = watch.ms();
     volume_.samples = {};
@@ -43,7 +44,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   Frame frame;
   for (int i = 0; i < request.repeat; ++i) {
     const Stopwatch watch;
-    frame = render_reference(*spline_, *coefficients_, scene, skips ? &*cells_ : nullptr, progress);
+    frame = render_reference(*spline_, *coefficients_, scene, skips ? &*cells_ : nullptr, progress, &voids_);
     stats.trace_ms.push_back(watch.ms());
   }
   const CostSums sums = cost_sums(frame);
@@ -51,6 +52,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   stats.steps = sums.steps;
   stats.intervals = sums.intervals;
   stats.skip = request.skip;
+  stats.void_cells = voids_.count;
   if (!request.scene.cost) frame.cost.clear();
   stats.rays = std::uint64_t(frame.width) * frame.height;
   stats.hits = count_hits(frame);

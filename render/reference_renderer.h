@@ -20,6 +20,7 @@ class ReferenceRenderer final : public Renderer {
   Volume volume_;  ///< until the coefficients are made
   std::optional<Coefficients<double>> coefficients_;
   std::optional<CellBounds> cells_;
+  VoidCells voids_;
 };
 
 }  // namespace quincunx

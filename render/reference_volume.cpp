@@ -19,15 +19,17 @@ double pixel_noise(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 
 }  // namespace
 
-ReferenceVolume::ReferenceVolume(const Spline& spline, const Coefficients<double>& coefficients, const DirectVolume& volume, double ambient)
-    : spline_(spline), coefficients_(coefficients), volume_(volume), ambient_(ambient) {
+ReferenceVolume::ReferenceVolume(const Spline& spline, const Coefficients<double>& coefficients, const DirectVolume& volume, double ambient,
+                                 const VoidCells* voids)
+    : spline_(spline), coefficients_(coefficients), volume_(volume), voids_(voids), ambient_(ambient) {
   const double cell = cell_length(coefficients.world);
   unit_ = volume.function.unit > 0.0 ? volume.function.unit : cell;
   length_ = volume.step * cell;
 }
 
-ReferenceVolume::March ReferenceVolume::begin(int i, int j) const {
+ReferenceVolume::March ReferenceVolume::begin(int i, int j, const LatticeRay& ray) const {
   March march;
+  march.voids.find(ray, glm::ivec3(cell_count(coefficients_.lattice, coefficients_.extents)), voids_);
   if (volume_.jitter) march.shift = pixel_noise(std::uint32_t(i), std::uint32_t(j), *volume_.jitter);
   return march;
 }
@@ -66,28 +68,30 @@ ReferenceVolume::Stretch ReferenceVolume::share(const Stretch& stretch, double p
   return {opacity / stretch.opacity * stretch.color, opacity};
 }
 
-ReferenceVolume::Stretch ReferenceVolume::sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length, RayCost& cost,
-                                                  double* change) const {
+ReferenceVolume::Stretch ReferenceVolume::sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length,
+                                                  const VoidStretches& voids, RayCost& cost, double* change) const {
   const Jet jet = spline_.evaluate(coefficients_, place(ray, s));
   ++cost.evaluations;
   if (change) *change = std::abs(glm::dot(jet.gradient, ray.direction)) * length_ / ray.scale / (volume_.function.high() - volume_.function.low());
+  if (voids.touch(s, s)) return {};
   return lit(classified(jet.value, length), jet.gradient, direction);
 }
 
 ReferenceVolume::Stretch ReferenceVolume::stretch(const LatticeRay& ray, const glm::dvec3& direction, double first, double last,
-                                                  RayCost& cost) const {
+                                                  const VoidStretches& voids, RayCost& cost) const {
   if (volume_.classify == Classify::pre_integrated) {
     const Jet front = spline_.evaluate(coefficients_, place(ray, first)), back = spline_.evaluate(coefficients_, place(ray, last));
     ++cost.evaluations;
+    if (voids.touch(first, last)) return {};
     return lit(pre_integrated(front.value, back.value, length_), back.gradient, direction);
   }
   double change = 0.0;
-  const Stretch whole = sampled(ray, direction, 0.5 * (first + last), length_, cost, &change);
+  const Stretch whole = sampled(ray, direction, 0.5 * (first + last), length_, voids, cost, &change);
   if (!volume_.adaptive || change <= volume_.finest) return whole;
   const int parts = change <= 2.0 * volume_.finest ? 2 : change <= 4.0 * volume_.finest ? 4 : 8;
   Composite sum;
   for (int n = 0; n < parts; ++n) {
-    const Stretch part = sampled(ray, direction, first + (last - first) * (n + 0.5) / parts, length_ / parts, cost);
+    const Stretch part = sampled(ray, direction, first + (last - first) * (n + 0.5) / parts, length_ / parts, voids, cost);
     sum.color += sum.transmittance * part.color;
     sum.transmittance *= 1.0 - part.opacity;
   }
@@ -103,7 +107,7 @@ void ReferenceVolume::integrate(const LatticeRay& ray, const glm::dvec3& directi
     const bool cut = begin_of(march.k + 1.0) > end;
     const double last = cut ? end : begin_of(march.k + 1.0);
     const double part = std::clamp((last - first) / dt, 0.0, 1.0);
-    Stretch met = stretch(ray, direction, first, last, cost);
+    Stretch met = stretch(ray, direction, first, last, march.voids, cost);
     if (part < 1.0) met = share(met, part);
     ++cost.steps;
     seen.color += seen.transmittance * met.color;

@@ -7,6 +7,7 @@
 #include "render/shading.h"
 #include "render/scene.h"
 #include "render/tracer.h"
+#include "render/void_stretches.h"
 #include "spline/spline.h"
 
 namespace quincunx {
@@ -15,17 +16,19 @@ namespace quincunx {
 /// pre-integrated stretch by many parts of a value that goes linearly.
 class ReferenceVolume {
  public:
-  /// All are kept by reference. `ambient` as in Scene.
-  ReferenceVolume(const Spline& spline, const Coefficients<double>& coefficients, const DirectVolume& volume, double ambient);
+  /// All are kept by reference. `ambient` as in Scene. `voids` may be null: no cell is void.
+  ReferenceVolume(const Spline& spline, const Coefficients<double>& coefficients, const DirectVolume& volume, double ambient,
+                  const VoidCells* voids = nullptr);
 
   /// How far one ray has come.
   struct March {
     double shift = 0.0;           ///< by which part of a stretch the first one begins before the ray
     double k = 0.0, reached = 0.0;
     std::optional<double> half;   ///< s where half of what is behind was hidden first
+    VoidStretches voids;
   };
   /// Of the ray of pixel (i,j).
-  March begin(int i, int j) const;
+  March begin(int i, int j, const LatticeRay& ray) const;
 
   /// Adds what is before s = `end` (cells from the ray's entry) to `seen`. `direction`: of the ray, unit, world.
   void integrate(const LatticeRay& ray, const glm::dvec3& direction, double end, March& march, Composite& seen, RayCost& cost) const;
@@ -41,9 +44,10 @@ class ReferenceVolume {
   /// What a stretch of `length` (world) of one value adds.
   Stretch classified(double value, double length) const;
   Stretch pre_integrated(double front, double back, double length) const;
-  /// From s = first to last.
-  Stretch stretch(const LatticeRay& ray, const glm::dvec3& direction, double first, double last, RayCost& cost) const;
-  Stretch sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length, RayCost& cost, double* change = nullptr) const;
+  /// From s = first to last. A place in a void cell has no opacity, nor, seen by its two ends, has a stretch that touches one.
+  Stretch stretch(const LatticeRay& ray, const glm::dvec3& direction, double first, double last, const VoidStretches& voids, RayCost& cost) const;
+  Stretch sampled(const LatticeRay& ray, const glm::dvec3& direction, double s, double length, const VoidStretches& voids, RayCost& cost,
+                  double* change = nullptr) const;
   /// A part of a stretch's length, or of its extinction.
   static Stretch share(const Stretch& stretch, double part);
   /// Light and modulation by a gradient (lattice).
@@ -53,6 +57,7 @@ class ReferenceVolume {
   const Spline& spline_;
   const Coefficients<double>& coefficients_;
   const DirectVolume& volume_;
+  const VoidCells* voids_;
   double ambient_, unit_, length_;  ///< world: of an opacity, of a stretch
 };
 

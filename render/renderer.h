@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accel/skip_config.h"
+#include "lattice/not_finite.h"
 #include "lattice/progress.h"
 #include "lattice/sample_source.h"
 #include "render/scene.h"
@@ -40,6 +41,7 @@ struct RenderStats {
   glm::i64vec3 block_extents{0};                  ///< blocks per axis
   std::uint64_t leaves = 0, nodes = 0;            ///< see StructureReport
   int depth = 0;
+  std::uint64_t void_cells = 0;                   ///< of NanPolicy::empty
   std::uint64_t rays = 0, hits = 0;
   BrickStats bricks;
   std::uint64_t evaluations = 0, steps = 0, intervals = 0;  ///< of all rays; only where asked for
@@ -57,6 +59,7 @@ class Renderer {
   struct Config {
     std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
     Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+    NanPolicy nan;       ///< what becomes of samples that are not finite
     std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them
     int brick = 32;           ///< edge of a brick in cells, a power of two, 4..256
     bool validation = false;  ///< Vulkan validation layers; any message throws
@@ -87,11 +90,12 @@ std::uint64_t default_pool_bytes(const std::string& device);
 
 /// Makes a volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
-/// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples, or a device that is not there.
+/// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples where config.nan refuses them, or a
+/// device that is not there.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
 
 /// The same for samples that stay where they are and are read brick by brick into a pool of config.pool_bytes, which is set. `what` names
-/// them in errors. Not for "cpu". Throws InputError also for what a pool of bricks cannot show: marching, central differences.
+/// them in errors. Not for "cpu". Throws InputError also for what a pool of bricks cannot show: marching, central differences, void cells.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, std::shared_ptr<const SampleSource> source, const std::string& what,
                                         const Renderer::Config& config);
 

@@ -37,13 +37,14 @@ void sort_along_ray(std::vector<Crossing>& crossings) {
 }  // namespace
 
 Tracer::Tracer(const Spline& spline, const Coefficients<double>& coefficients, std::span<const double> isovalues,
-               const CellBounds* cells, const Config& config)
+               const CellBounds* cells, const Config& config, const VoidCells* voids)
     : spline_(spline),
       coefficients_(coefficients),
       config_(config),
       far_(domain_max(coefficients.lattice, coefficients.extents)),
       cells_(glm::max(glm::ivec3(far_), glm::ivec3(1))),
-      isovalues_(isovalues.begin(), isovalues.end()) {
+      isovalues_(isovalues.begin(), isovalues.end()),
+      voids_(voids && voids->count > 0 ? voids : nullptr) {
   assert(spline.lattice() == coefficients.lattice && spline.apron() <= coefficients.apron);
   assert(spline.degree() <= kMaxDegree);
   assert(std::is_sorted(isovalues_.begin(), isovalues_.end()));
@@ -122,6 +123,11 @@ void Tracer::trace_exact(const LatticeRay& ray, Workspace& work, RayCost& cost, 
   bool looking = false;
   for (CellWalk walk(ray, cells_); !walk.done(); walk.advance()) {
     ++cost.steps;
+    if (voids_ && voids_->at(walk.cell())) {
+      level = kUnknown;
+      looking = false;
+      continue;
+    }
     const int promised = promised_level(walk.cell());
     if (promised != kLook) {
       assert(level == kUnknown || level == promised);
@@ -189,10 +195,12 @@ double Tracer::refine(const LatticeRay& ray, const Sample& from, const Sample& t
 
 void Tracer::trace_march(const LatticeRay& ray, Workspace& work, RayCost& cost, const Visitor& visit) const {
   bool looking = false;
+  work.voids.find(ray, cells_, voids_);
   Sample last = sample(ray, 0.0, looking, cost);
   for (std::int64_t n = 1; last.s < ray.length; ++n) {
     const Sample next = sample(ray, std::min(double(n) * config_.step, ray.length), looking, cost);
     work.crossings.clear();
+    if (work.voids.touch(last.s, next.s)) last.level = next.level;
     for (int k = std::min(last.level, next.level); k < std::max(last.level, next.level); ++k)
       work.crossings.push_back({refine(ray, last, next, isovalues_[k], cost), k});
     sort_along_ray(work.crossings);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "accel/classification.h"
+#include "accel/void_cells.h"
 #include "render/ray.h"
 #include "render/scene.h"
+#include "render/void_stretches.h"
 #include "spline/spline.h"
 
 namespace quincunx {
@@ -37,16 +39,18 @@ class Tracer {
   struct Workspace {
     std::vector<double> knots, roots;
     std::vector<Crossing> crossings;
+    VoidStretches voids;
   };
   /// Told of each crossing in ray order; false stops the ray.
   using Visitor = std::function<bool(const Crossing&)>;
 
   /// Keeps references to `spline` and `coefficients`. `isovalues` ascend. `cells` may be null: nothing is skipped; else the
-  /// bounds of this spline, which change no crossing.
+  /// bounds of this spline, which change no crossing. `voids`, kept by reference, may be null too: no cell is void.
   Tracer(const Spline& spline, const Coefficients<double>& coefficients, std::span<const double> isovalues,
-         const CellBounds* cells, const Config& config);
+         const CellBounds* cells, const Config& config, const VoidCells* voids = nullptr);
 
-  /// The crossings of one ray, clipped to the domain. A ray that starts above an isovalue does not cross it there.
+  /// The crossings of one ray, clipped to the domain. A ray that starts above an isovalue does not cross it there; nor does one that leaves
+  /// a void cell above it. Nothing is crossed inside void cells, and by marching not between two samples with one between them.
   void trace(const LatticeRay& ray, Workspace& work, RayCost& cost, const Visitor& visit) const;
 
   /// The place u(s) in the closed domain, free of rounding to its outside.
@@ -74,6 +78,7 @@ class Tracer {
   glm::dvec3 far_;
   glm::ivec3 cells_;
   std::vector<double> isovalues_;
+  const VoidCells* voids_;
   Classification levels_;  ///< of single cells; empty where nothing is skipped
 };
 

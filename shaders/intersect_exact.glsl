@@ -8,6 +8,9 @@
 // that left a do-while early the values of the last trip; and a masked lane costs it as much as a live one.)
 
 #include "bernstein.glsl"
+#ifdef VOIDS
+#include "voids.glsl"
+#endif
 
 // So close behind a hit (lattice coordinates) a value within rounding of the isovalue, HIT_ROUNDING of what went into it, is taken to be
 // on the level's side: the next piece knows the crossing at a slightly different place.
@@ -54,10 +57,17 @@ Caster begin_caster(Ray ray, Walk walk) {
 // Where `wanted`, makes the next cell that may matter the current one, or ends the ray, or gets nearer to either. `break_at`: as for
 // find_cell.
 void enter_cell(Ray ray, inout Caster caster, bool wanted, uint break_at) {
+#ifdef VOIDS
+  float before = caster.walk.t;
+#endif
   bool found = find_cell(ray, caster.walk, wanted, break_at);
   ivec3 cell = caster.walk.cell;
   float leave = exit_time(ray, cell, 1);
   float entry = caster.walk.t;
+#ifdef VOIDS
+  // What was passed over may have held void cells; where it did not, the first value behind it says the same again.
+  caster.level = entry != before ? LEVEL_UNKNOWN : caster.level;
+#endif
   caster.live = caster.live && (!wanted || found || entry < ray.end);
   caster.need_cell = caster.need_cell && !found;
   caster.cell = found ? cell : caster.cell;
@@ -152,6 +162,13 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     enter_cell(ray, caster, seeking && caster.need_cell, seekers / 4u);
     seeking = seeking && caster.live;
     bool looking = seeking && !caster.need_cell;
+#ifdef VOIDS
+    // The ray starts anew behind a void cell.
+    bool passes = looking && is_void(caster.cell);
+    caster.level = passes ? LEVEL_UNKNOWN : caster.level;
+    caster.need_cell = caster.need_cell || passes;
+    looking = looking && !passes;
+#endif
 #ifdef BRICKS
     if (looking && !brick_resident(caster.cell)) {
       request_brick(caster.cell);

@@ -1,5 +1,8 @@
 // The published way, as a baseline: samples every `step` along the ray from its entry into the domain, a change of side between two of them,
 // then regula falsi (Illinois). Sheets thinner than a step are lost. Samples stand at the same places whatever is skipped.
+#ifdef VOIDS
+#include "voids.glsl"
+#endif
 
 struct Caster {
   Walk walk;
@@ -51,6 +54,9 @@ void enter_interval(Ray ray, inout Caster caster, bool wanted) {
   caster.live = caster.live && (!wanted || found);
   // From the last sample before the interval, unless it has been taken.
   float first = floor((caster.walk.t - ray.begin) / parameters.march.x);
+#ifdef VOIDS
+  caster.have = caster.have && !(wanted && first > caster.k);  // void cells may have been passed over
+#endif
   caster.k = wanted ? max(caster.k, first) : caster.k;
   caster.leave = wanted ? leave : caster.leave;
   caster.walk.t = wanted ? leave : caster.walk.t;
@@ -100,8 +106,12 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     caster.evaluations += seeking ? 1u : 0u;
 #endif
     int level = level_of(f + MARCH_OFFSET);
-    caster.level = seeking && !caster.have ? level : caster.level;
-    bool crosses = seeking && caster.have && level != caster.level;
+    bool pair = seeking && caster.have;
+#ifdef VOIDS
+    pair = pair && !void_between(ray, caster.previous, t, pair);
+#endif
+    caster.level = seeking && !pair ? level : caster.level;
+    bool crosses = pair && level != caster.level;
     a = seeking ? caster.previous : a;
     fa = seeking ? caster.before : fa;
     b = seeking ? t : b;

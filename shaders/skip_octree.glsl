@@ -29,7 +29,11 @@ bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, 
   int shift = parameters.blocks.w + state.level;
   ivec3 node = cell >> shift;
   ivec3 size = octree_size(state.level);
-  bool touches = octree_touches(texelFetch(octreeBounds, state.offset + (node.z * size.y + node.y) * size.x + node.x).rg);
+  uvec2 bounds = texelFetch(octreeBounds, state.offset + (node.z * size.y + node.y) * size.x + node.x).rg;
+  bool touches = octree_touches(bounds);
+#ifdef VOIDS
+  touches = touches && bounds.x <= bounds.y;  // not all of it is void
+#endif
   until = exit_time(ray, node << shift, 1 << shift);
   from = touches ? t : until;
   bool deeper = touches && state.level > 0;

@@ -7,6 +7,9 @@
 // for as long as most lanes have. No lane leaves a loop before its subgroup does, and what it has is kept by selection
 // (intersect_exact.glsl says why).
 #include "transfer.glsl"
+#if defined(VOIDS) && !defined(SURFACES)
+#include "voids.glsl"
+#endif
 
 #if defined(SURFACES) || defined(MODULATED) || defined(JITTER) || defined(ADAPTIVE)
 // Any stretch may be seen in part; otherwise the last one of a ray alone.
@@ -304,6 +307,17 @@ float look_at(VolumeRay volume, Stretch s) {
 #endif
 }
 
+#ifdef VOIDS
+// Whether nothing is seen of a stretch that is looked at in t: it is in a void cell there, or, seen by both ends, a void cell is between them.
+bool in_void(Ray ray, Stretch s, float t, bool here) {
+#ifdef PRE_INTEGRATED
+  return void_between(ray, s.first, s.last, here);
+#else
+  return is_void(cell_at(ray, t));
+#endif
+}
+#endif
+
 // Evaluates the spline once where `ready` and adds what that tells.
 void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout Seen seen) {
   Stretch s = stretch_left(ray, volume, end);
@@ -336,6 +350,10 @@ void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout See
   vec4 stretch = classified(at.place);
   bool here = ready;
   bool ended = ready;
+#endif
+#ifdef VOIDS
+  bool hidden = in_void(ray, s, t, here);
+  stretch = hidden ? vec4(0.0) : stretch;
 #endif
   stretch.rgb *= at.light;
 #ifdef CUT_ANYWHERE

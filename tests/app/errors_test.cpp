@@ -101,6 +101,12 @@ TEST_F(Errors, NameThePlaceOfSamplesThatAreNotFinite) {
   expect_refused({"eval", nan, "--points", points}, {"nan.nrrd"});
 }
 
+TEST_F(Errors, NameWhatSamplesThatAreNotFiniteCannotBeTakenAs) {
+  for (const std::string bad : {"zero", "fill", "fill=", "fill=nan", "fill=inf", "fill=1e39", "0", "empty=0"})
+    expect_refused(render({"--nan=" + bad}), {"--nan", "'" + (bad.starts_with("fill=") && bad != "fill=1e39" ? bad.substr(5) : bad) + "'"});
+  expect_refused(render({"--nan", "empty", "--pool", "1M"}), {"--nan", "empty", "--pool", "fill=V"});
+}
+
 TEST_F(Errors, TellHowToMakeABccVolumeOfACartesianOne) {
   const std::string command =
       "quincunx convert " + cartesian + " " + (folder / "cartesian_bcc.nrrd") + " --lattice bcc";

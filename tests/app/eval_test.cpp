@@ -184,5 +184,33 @@ TEST(Eval, OfNoPointsPrintsTheHeader) {
   EXPECT_EQ(outcome.out, "x,y,z,value,gx,gy,gz\n");
 }
 
+TEST(Eval, GivesNothingInVoidCellsAndTheLinearFieldBesideThem) {
+  const TemporaryFolder folder;
+  const auto field = [](const glm::dvec3& x) { return 1.0 + 2.0 * x.x - x.y + 0.5 * x.z; };
+  Volume volume = make_volume(LatticeKind::bcc, {9, 9, 9}, {}, field);
+  std::get<std::vector<float>>(volume.samples)[4 * 81 + 4 * 9 + 4] = std::nanf("");  // at (8, 8, 8)
+  write_volume(volume, folder / "v.nrrd");
+  write_file(folder / "p.csv", "8,8,8\n6.2,7.9,8.1\n4.7,8.3,8.4\n11.3,8.2,8.4\n5.2,5.2,5.2\n");
+  EXPECT_EQ(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv"}).status, 2);
+  for (const std::string precision : {"double", "float"}) {
+    const Outcome outcome = run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--nan", "empty", "--precision", precision});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::vector<Row> result = rows(outcome.out);
+    ASSERT_EQ(result.size(), 5u);
+    for (std::size_t n = 0; n < 5; ++n) {
+      if (n < 2) {
+        EXPECT_TRUE(std::isnan(result[n][3]) && std::isnan(result[n][4])) << n;
+      } else {
+        EXPECT_NEAR(result[n][3], field({result[n][0], result[n][1], result[n][2]}), 1e-4) << n;
+        EXPECT_NEAR(result[n][4], 2.0, 1e-4) << n;
+      }
+    }
+  }
+  const std::vector<Row> filled = rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--nan", "fill=9"}).out);
+  // The field is 13 there, and the weight at a sample's own place, prefiltered, about 0.5.
+  EXPECT_GT(filled[0][3], 9.0);
+  EXPECT_LT(filled[0][3], 13.0);
+}
+
 }  // namespace
 }  // namespace quincunx::test

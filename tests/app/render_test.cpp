@@ -209,5 +209,33 @@ TEST_F(Render, TellsWhenNothingWasHit) {
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("nothing was hit"), HasSubstr("-2.36 to 0.63")));
 }
 
+TEST_F(Render, LeavesOutOrFillsWhatIsNotFinite) {
+  // The sphere without a half of its samples, those of x > 0.25: its other half is as it was.
+  Volume holed = sample_field(*make_field("sphere"), LatticeKind::bcc, {10, 10, 10}), filled = holed;
+  auto& samples = std::get<std::vector<float>>(holed.samples);
+  for (std::size_t n = 0; n < samples.size(); ++n)
+    if (n % 10 > 6) samples[n] = n % 2 ? std::nanf("") : -INFINITY, std::get<std::vector<float>>(filled.samples)[n] = 1.0f;
+  write_volume(filled, volume);
+  const Image expected = picture({"--azimuth", "0"});
+  write_volume(holed, volume);
+  EXPECT_EQ(render({"-o", folder / "refused.png"}).status, 2);
+  expect_identical(picture({"--azimuth", "0", "--nan", "fill=1"}), expected);
+
+  const Outcome outcome = render({"--nan", "empty", "--azimuth", "0", "--json", "-o", folder / "empty.exr"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(json::parse(outcome.out)["void_cells"], 0);
+  EXPECT_GT(json::parse(outcome.out)["device_bytes"]["void cells"], 0);
+  const Image empty = read_image(folder / "empty.exr"), reference = picture({"--azimuth", "0", "--nan", "empty", "--device", "cpu"});
+  int seen = 0;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      seen += std::isfinite(at(empty, "Z", x, y));
+      EXPECT_EQ(std::isfinite(at(empty, "Z", x, y)), std::isfinite(at(reference, "Z", x, y))) << x << ' ' << y;
+    }
+  EXPECT_GT(seen, 100);
+  EXPECT_FALSE(std::isfinite(at(empty, "Z", 27, 15))) << "nothing where samples are missing";
+  EXPECT_TRUE(std::isfinite(at(empty, "Z", 14, 15)));
+}
+
 }  // namespace
 }  // namespace quincunx::test

@@ -72,6 +72,32 @@ std::vector<KernelVariant> volume_variants() {
   return variants;
 }
 
+/// Those with void cells: every way to look, with a structure that asks about them, with one that does not and with none.
+std::vector<KernelVariant> void_variants() {
+  std::vector<KernelVariant> variants;
+  for (const char* label : {"none", "grid", "octree"})
+    for (int bits = 0; bits < 256; ++bits) {
+      KernelVariant v;
+      const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
+      v.structure = structure->name();
+      v.structure_shader = structure->shader();
+      v.voids = true;
+      v.cell_test = bits & 1;
+      v.intersect = bits & 2 ? Intersect::march : Intersect::exact;
+      v.surfaces = bits & 4;
+      v.volume = bits & 8;
+      v.composite = v.surfaces && (v.volume || bits & 16);
+      v.many_isovalues = v.surfaces && bits & 16;
+      v.pre_integrated = bits & 32;
+      v.adaptive = bits & 64;
+      v.stub = v.cost = bits & 128;
+      const bool nothing = !v.surfaces && !v.volume, of_nothing = (!v.surfaces && bits & 18) || (!v.volume && bits & 96);
+      if (nothing || of_nothing || (v.pre_integrated && v.adaptive) || (v.cell_test && v.structure == "none") || (v.stub && bits & 98)) continue;
+      variants.push_back(v);
+    }
+  return variants;
+}
+
 std::string describe(const KernelVariant& v) {
   std::string text = v.structure;
   for (const KernelPart& part : kernel_parts(v)) text += (part.feature.compiled ? ", " : ", no ") + part.feature.name;
@@ -108,8 +134,7 @@ std::set<std::string> buffers_of(const std::string& name) {
 
 TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothingElse) {
   std::vector<KernelVariant> variants = all_variants();
-  const std::vector<KernelVariant> of_volumes = volume_variants();
-  variants.insert(variants.end(), of_volumes.begin(), of_volumes.end());
+  for (const std::vector<KernelVariant>& more : {volume_variants(), void_variants()}) variants.insert(variants.end(), more.begin(), more.end());
   for (const KernelVariant& v : variants) {
     SCOPED_TRACE(describe(v));
     std::set<std::string> names, bound;
@@ -127,6 +152,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
     if (v.surfaces && !v.stub) expected.insert("Isosurfaces");
     if (v.volume && !v.stub) expected.insert("transferTable");
     if (v.cell_test) expected.insert("occupancy");
+    if (v.voids && !v.stub) expected.insert("voids");
     if (v.cost) expected.insert("Cost");
     for (int i = 0; i < v.coefficient_buffers && !v.stub; ++i) expected.insert("coefficients" + std::to_string(i));
     EXPECT_EQ(bound, expected);
