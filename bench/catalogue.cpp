@@ -219,12 +219,38 @@ std::vector<StabilityCase> geometry() {
   return all;
 }
 
+/// Samples that are not finite, in a ball's field and about its surface, and what is made of them.
+std::vector<StabilityCase> data() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const auto sphere = [](const Vec& u) { return ball(u, kMiddle, 10.0); };
+  const NanPolicy empty{NanPolicy::Kind::empty, 0.0}, fill{NanPolicy::Kind::fill, -20.0};
+  std::vector<StabilityCase> all;
+  const auto add = [&](const std::string& name, const std::function<double(const Vec&)>& field, const std::vector<NanPolicy>& policies) {
+    for (const NanPolicy& policy : policies) {
+      const char* how = policy.kind == NanPolicy::Kind::refuse ? "refused" : policy.kind == NanPolicy::Kind::empty ? "empty" : "filled";
+      StabilityCase c = make(fmt::format("{}, {}", name, how), field, 0.0);
+      c.nan = policy;
+      all.push_back(c);
+    }
+  };
+  // Near the surface, on either side of it.
+  const auto spot = [](const Vec& u) { return u == Vec(10, 8, 20) || u == Vec(22, 22, 20); };
+  add("two NaN samples", [=](const Vec& u) { return spot(u) ? nan : sphere(u); }, {{}, empty, fill});
+  add("two infinite samples", [=](const Vec& u) { return spot(u) ? (u.x < 16 ? inf : -inf) : sphere(u); }, {{}, empty, fill});
+  add("a ball of NaN that cuts the surface", [=](const Vec& u) { return glm::distance(u, Vec(8, 10, 22)) < 6.0 ? nan : sphere(u); }, {empty});
+  add("a plane of NaN", [=](const Vec& u) { return std::abs(u.z - 16.0) <= 1.0 ? nan : sphere(u); }, {empty});
+  add("NaN all around the ball", [=](const Vec& u) { return glm::distance(u, kMiddle) > 13.5 ? nan : sphere(u); }, {empty});
+  add("one sample of 50 NaN or infinite", [=](const Vec& u) { return noise(u) < 0.02 ? (noise(u) < 0.01 ? nan : -inf) : sphere(u); }, {empty, fill});
+  add("nothing but NaN", [=](const Vec&) { return nan; }, {empty});
+  return all;
+}
+
 struct Group {
   std::string_view name;
   std::vector<StabilityCase> (*cases)();
 };
 /// The one list of them.
-constexpr Group kGroups[] = {{"stiff", stiff}, {"scale", scale}, {"flat", flat}, {"tangency", tangency}, {"rays", rays}, {"geometry", geometry}};
+constexpr Group kGroups[] = {{"stiff", stiff}, {"scale", scale}, {"flat", flat}, {"tangency", tangency}, {"rays", rays}, {"geometry", geometry}, {"data", data}};
 
 template <class T>
 T rounded(double x) {

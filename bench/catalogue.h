@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lattice/not_finite.h"
 #include "lattice/volume.h"
 #include "render/camera.h"
 
@@ -19,6 +20,7 @@ struct StabilityCase {
   glm::i64vec3 cells{31};  ///< the domain is the box [0, cells] of lattice coordinates; odd, or 0 for one Cartesian sample
   World world;
   SampleType type = SampleType::float32;
+  NanPolicy nan;  ///< refuse: samples are finite, or the case is that they are refused
   std::vector<Camera> cameras;  ///< world; none: two orbit views of the whole volume
   int size = 48;                ///< pixels each way
 

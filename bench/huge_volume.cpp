@@ -68,12 +68,11 @@ StabilityLine measure_huge(const std::string& name, const std::shared_ptr<Kernel
   const Coefficients<double> coefficients = spline->coefficients(source->corner(), Spline::Prefilter::quasi_interpolation);
   StabilityLine line;
   line.group = "index";
-  const Extents& n = source->header().extents;
   line.name = "sample numbers beyond 2^31, through bricks";
   line.spline = name;
   line.isovalue = HugeVolume::kIsovalue;
   Judge::Config floats;
-  floats.cells = cell_count(spline->lattice(), n);
+  floats.cells = cell_count(spline->lattice(), source->header().extents);
   line.exact = Judge(*spline, coefficients, request.scene, nullptr).judge(frame, floats);
   return line;
 }

@@ -76,8 +76,8 @@ struct Judge::Place {
   double turn = 0.0;     ///< radians: by how much a normal may be off
 };
 
-Judge::Judge(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells)
-    : spline_(spline), coefficients_(coefficients), isovalue_(scene.isosurfaces.front().isovalue), rounding_(kernel_rounding(spline)),
+Judge::Judge(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells, const VoidCells* voids)
+    : spline_(spline), coefficients_(coefficients), voids_(voids && voids->count > 0 ? voids : nullptr), isovalue_(scene.isosurfaces.front().isovalue), rounding_(kernel_rounding(spline)),
       width_(scene.width), height_(scene.height) {
   assert(scene.isosurfaces.size() == 1);
   const CameraFrame camera = camera_frame(scene.camera, width_, height_);
@@ -85,7 +85,7 @@ Judge::Judge(const Spline& spline, const Coefficients<double>& coefficients, con
   normals_ = glm::transpose(space.inverse_axes);
   far_ = space.far;
   const std::array<double, 1> isovalues{isovalue_};
-  const Tracer tracer(spline, coefficients, isovalues, cells, {});
+  const Tracer tracer(spline, coefficients, isovalues, cells, {}, voids_);
   rays_.resize(std::size_t(width_) * std::size_t(height_));
   tbb::parallel_for(0, height_, [&](int j) {
     Tracer::Workspace work;
@@ -149,7 +149,7 @@ Judge::Place Judge::place(const Ray& ray, double s, bool told, const Config& con
 
 std::optional<double> Judge::decided(const Ray& ray, double band) const {
   const std::array<double, 2> levels{isovalue_ - band, isovalue_ + band};
-  if (!(levels[0] < levels[1])) return ray.expected;
+  if (voids_ || !(levels[0] < levels[1])) return ray.expected;
   const Tracer tracer(spline_, coefficients_, levels, nullptr, {});
   const double begin = jet(ray.lattice, 0.0).value;
   int side = begin < levels[0] ? -1 : begin >= levels[1] ? 1 : 0;  // that the ray certainly was on last
@@ -218,7 +218,7 @@ Verdict Judge::judge_pixel(const Frame& frame, std::size_t pixel, const std::opt
   const std::optional<double> certain = decided(*ray, band);
   if (!hit && certain) {
     v.holes = 1;
-  } else if (hit && (v.residual > 1.0 || (certain && s > *certain + here.slip + 2.0 * displacement(config)))) {
+  } else if (hit && (v.residual > 1.0 || (voids_ && !certain) || (certain && s > *certain + here.slip + 2.0 * displacement(config)))) {
     v.wrong = 1;
   } else {
     v.undecided = 1;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "accel/bounds.h"
+#include "accel/void_cells.h"
 #include "render/ray.h"
 #include "render/scene.h"
 #include "render/tracer.h"
@@ -40,8 +41,9 @@ class Judge {
     glm::i64vec3 cells{0};     ///< of the volume that is rendered, where the one that is judged by is a part of it
   };
 
-  /// Keeps references. `scene` has one isosurface. `cells` may be null, or the bounds of this spline, which change nothing but the time.
-  Judge(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells);
+  /// Keeps references. `scene` has one isosurface. `cells` may be null, or the bounds of this spline, which change nothing but the time. `voids`:
+  /// cells in which nothing is seen; null: there are none. Where there are some, no other outcome than the reference's is excused.
+  Judge(const Spline& spline, const Coefficients<double>& coefficients, const Scene& scene, const CellBounds* cells, const VoidCells* voids = nullptr);
 
   /// Judges `frame`, a picture of the scene by any way to intersect, in parallel.
   Verdict judge(const Frame& frame, const Config& config) const;
@@ -66,6 +68,7 @@ class Judge {
 
   const Spline& spline_;
   const Coefficients<double>& coefficients_;
+  const VoidCells* voids_;
   double isovalue_, rounding_;
   int width_, height_;
   glm::dmat3 normals_;  ///< gradients of lattice coordinates to those of the world

@@ -7,6 +7,7 @@
 
 #include "bench/huge_volume.h"
 #include "bench/open_device.h"
+#include "lattice/error.h"
 #include "render/device_probe.h"
 #include "render/device_renderer.h"
 
@@ -65,22 +66,42 @@ Renderer::Request request_for(const StabilityCase& c, const Camera& camera) {
   return request;
 }
 
+/// Whether rendering the volume is refused for samples that are not finite, naming their number and a place.
+bool refuses(const Volume& volume, const Renderer::Config& config, const std::shared_ptr<KernelCache>& kernels, const Renderer::Request& request) {
+  try {
+    RenderStats stats;
+    DeviceRenderer(kernels, volume, config).render(request, stats);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    return what.find(std::to_string(sample_range(volume).not_finite)) != std::string::npos && what.find("first") != std::string::npos;
+  }
+  return false;
+}
+
 StabilityLine measure_case(const StabilityCase& c, const std::string& name, const std::shared_ptr<KernelCache>& kernels, const StabilityPlan& plan) {
   const std::unique_ptr<Spline> spline = make_spline(name);
   Subject subject{*spline, c.sampled(spline->lattice()), {}, {}};
+  Renderer::Config config;
+  config.spline = name;
+  config.nan = c.nan;
+  if (sample_range(subject.volume).not_finite > 0 && c.nan.kind == NanPolicy::Kind::refuse) {
+    StabilityLine line;
+    line.group = c.group, line.name = c.name, line.spline = name, line.isovalue = c.isovalue;
+    line.refused = refuses(subject.volume, config, kernels, request_for(c, c.views(spline->lattice()).front()));
+    return line;
+  }
+  DeviceRenderer renderer(kernels, subject.volume, config);
+  const VoidCells voids = make_finite(subject.volume, *spline, c.nan);
   subject.coefficients = spline->coefficients(subject.volume, Spline::Prefilter::quasi_interpolation);
   const SampleRange range = sample_range(subject.volume);
   subject.rounded = spline->coefficients_float(subject.volume, Spline::Prefilter::quasi_interpolation, float_unit(c.type, range.min, range.max));
-  Renderer::Config config;
-  config.spline = name;
-  DeviceRenderer renderer(kernels, subject.volume, config);
   // Bounds of the rounded coefficients are those of the values where they are rounded as they are.
   const CellBounds bounds = cell_bounds(*spline, subject.rounded);
 
-  StabilityLine line{c.group, c.name, name, c.isovalue, evaluation_error(subject, kernels->device(), plan), {}, {}};
+  StabilityLine line{c.group, c.name, name, c.isovalue, evaluation_error(subject, kernels->device(), plan), {}, {}, {}};
   for (const Camera& camera : c.views(spline->lattice())) {
     Renderer::Request request = request_for(c, camera);
-    const Judge judge(*spline, subject.coefficients, request.scene, subject.rounded.unit.plain() ? &bounds : nullptr);
+    const Judge judge(*spline, subject.coefficients, request.scene, subject.rounded.unit.plain() ? &bounds : nullptr, &voids);
     const Judge::Config floats{.epsilon = kEpsilon, .offset = subject.rounded.unit.offset};
     RenderStats stats;
     line.exact += judge.judge(renderer.render(request, stats), floats);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ struct StabilityLine {
   double isovalue = 0.0;
   EvaluationError evaluation;
   Verdict exact, march;  ///< of all views; march, at `step` cells, for comparison alone
+  std::optional<bool> refused;  ///< of a case that is to be refused, and nothing else: whether it was, with the place of the first sample
 
-  bool passed() const { return evaluation.passed() && exact.passed(); }
+  bool passed() const { return refused ? *refused : evaluation.passed() && exact.passed(); }
   bool marched() const { return march.rays > 0; }
 };
 

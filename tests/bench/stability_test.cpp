@@ -28,7 +28,7 @@ TEST(StabilityCatalogue, SamplesEveryCaseOnBothLatticesWithFiniteNumbers) {
       for (const LatticeKind lattice : {LatticeKind::bcc, LatticeKind::cartesian}) {
         const Volume volume = c.sampled(lattice);
         check_volume(volume, c.name);
-        EXPECT_EQ(sample_range(volume).not_finite, 0u) << c.name;
+        EXPECT_EQ(sample_range(volume).not_finite > 0, group == "data") << c.name;
         EXPECT_GE(c.views(lattice).size(), 1u) << c.name;
       }
     }
@@ -79,7 +79,7 @@ TEST(Watertight, NoRayLeaksThroughAClosedSurface) {
 
 StabilityReport small_report() {
   StabilityReport report{.command = "quincunx stability --groups \"<&>\"", .machine = {"a device", "a driver", "a processor", 2}, .step = 0.25, .seed = 1, .lines = {}, .roots = {}, .watertight = {}};
-  report.lines.push_back({"flat", "a plateau, level", "bcc7", 0.25, {1.0, 2.0, 512.0, 2048.0}, {}, {}});
+  report.lines.push_back({"flat", "a plateau, level", "bcc7", 0.25, {1.0, 2.0, 512.0, 2048.0}, {}, {}, {}});
   report.lines.push_back(report.lines.front());
   report.lines.back().exact.holes = 3;
   RootsLine roots;
