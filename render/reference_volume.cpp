@@ -27,10 +27,15 @@ ReferenceVolume::ReferenceVolume(const Spline& spline, const Coefficients<double
   length_ = volume.step * cell;
 }
 
-ReferenceVolume::March ReferenceVolume::begin(int i, int j, const LatticeRay& ray) const {
+ReferenceVolume::March ReferenceVolume::begin(int i, int j) const {
   March march;
-  march.voids.find(ray, glm::ivec3(cell_count(coefficients_.lattice, coefficients_.extents)), voids_);
   if (volume_.jitter) march.shift = pixel_noise(std::uint32_t(i), std::uint32_t(j), *volume_.jitter);
+  return march;
+}
+
+ReferenceVolume::March ReferenceVolume::begin(int i, int j, const LatticeRay& ray) const {
+  March march = begin(i, j);
+  march.voids.find(ray, glm::ivec3(cell_count(coefficients_.lattice, coefficients_.extents)), voids_);
   return march;
 }
 

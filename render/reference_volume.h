@@ -27,7 +27,8 @@ class ReferenceVolume {
     std::optional<double> half;   ///< s where half of what is behind was hidden first
     VoidStretches voids;
   };
-  /// Of the ray of pixel (i,j).
+  /// Of the ray of pixel (i,j), which passes no void cells, or some.
+  March begin(int i, int j) const;
   March begin(int i, int j, const LatticeRay& ray) const;
 
   /// Adds what is before s = `end` (cells from the ray's entry) to `seen`. `direction`: of the ray, unit, world.

@@ -35,7 +35,7 @@ std::vector<double> crossings_of(const Tracer& tracer, const LatticeRay& ray) {
   return places;
 }
 
-/// Places between two samples, `step` apart along the ray, neither of which is in a void cell nor is one of those where `stops`, on different sides.
+/// Places between two samples, `step` apart along the ray, neither of which is in a void cell, on different sides.
 std::vector<double> sampled_crossings(const Emptied& e, const LatticeRay& ray, double isovalue, double step) {
   const auto place = [&](double s) { return glm::clamp(ray.point(s), glm::dvec3(0.0), glm::dvec3(domain_max(e.volume.lattice, e.volume.extents))); };
   std::vector<double> places;
@@ -77,7 +77,7 @@ TEST(TracerWithVoids, CrossesWhatDenseSamplesCrossOutsideVoidCellsAndNothingElse
       }
     }
     EXPECT_GT(crossed, 150u) << name;
-    EXPECT_GT(passed, 100u) << name;
+    EXPECT_GT(passed, 60u) << name;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(TracerWithVoids, HitsTheSurfaceBehindAVoidAndIsNotPoisonedBesideIt) {
   for (const std::string_view name : spline_names()) {
     const Emptied e(ramp_with_a_slab(make_spline(name)->lattice()), name);
     for (const Intersect way : {Intersect::exact, Intersect::march})
-      for (const double x : {6.0 - 1e-3, 14.0, 17.3}) {  // the slab's weights reach from 6 (bcc7) to 13
+      for (const double x : {5.5, 14.0, 17.3}) {  // the slab's weights reach from 6 to 13 (bcc7)
         const Tracer tracer(*e.spline, e.coefficients, std::array{x}, nullptr, {way, 0.3}, &e.voids);
         const auto ray = clip_ray(ray_space(e.volume.lattice, e.volume.extents, e.volume.world, {-4.0, 11.3, 12.4}), {1, 0, 0});
         const std::vector<double> found = crossings_of(tracer, *ray);
