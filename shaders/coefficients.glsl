@@ -23,13 +23,13 @@ layout(binding = 16) uniform samplerBuffer coefficients6;
 layout(binding = 17) uniform samplerBuffer coefficients7;
 #endif
 
-float coefficient(int number) {
+real coefficient(int number) {
 #if COEFFICIENT_BUFFERS == 1
   return texelFetch(coefficients0, number).r;
 #else
   int buffer_number = number >> COEFFICIENT_SHIFT;
   int element = number & ((1 << COEFFICIENT_SHIFT) - 1);
-  float c = texelFetch(coefficients0, element).r;
+  real c = texelFetch(coefficients0, element).r;
   c = buffer_number == 1 ? texelFetch(coefficients1, element).r : c;
 #if COEFFICIENT_BUFFERS > 2
   c = buffer_number == 2 ? texelFetch(coefficients2, element).r : c;

@@ -9,15 +9,15 @@ layout(std430, binding = 2) readonly buffer Isosurfaces {
 };
 
 // Kernels compute SPLINE_SCALE times the spline's values.
-float scaled_isovalue(int k) { return SPLINE_SCALE * isosurface[2 * k].x; }
+real scaled_isovalue(int k) { return SPLINE_SCALE * isosurface[2 * k].x; }
 
 #if ISOVALUES == 1
-int level_of(float value) { return value >= scaled_isovalue(0) ? 1 : 0; }
+int level_of(real value) { return value >= scaled_isovalue(0) ? 1 : 0; }
 #else
-int count_isovalues(float value) {
+int count_isovalues(real value) {
   int count = 0;
   for (int k = 0; k < parameters.cells.w; ++k) count += value >= scaled_isovalue(k) ? 1 : 0;
   return count;
 }
-int level_of(float value) { return count_isovalues(value); }
+int level_of(real value) { return count_isovalues(value); }
 #endif

@@ -3,8 +3,8 @@
 
 struct PendingRay {
   ivec2 pixel;
-  float t;      // where the ray enters its first cell that may matter
-  float until;  // how far the structure's answer reaches
+  real t;       // where the ray enters its first cell that may matter
+  real until;   // how far the structure's answer reaches
 };
 
 layout(std430, binding = 8) buffer Rays {

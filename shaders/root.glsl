@@ -2,7 +2,7 @@
 struct Root {
   ivec3 cell;
   AxisOrder order;  // the piece it lies in
-  float t;
+  real t;
   int surface;
 };
 

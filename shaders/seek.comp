@@ -6,6 +6,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "coefficients.glsl"
@@ -45,8 +46,8 @@ void main() {
     if (ended) {
       ray_list[number] = uvec4(pack_pixel(pending.pixel), pack_root(hit, root));
 #ifdef COST
-      vec3 before = read_cost(pending.pixel);
-      write_cost(pending.pixel, before + vec3(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals)));
+      rvec3 before = read_cost(pending.pixel);
+      write_cost(pending.pixel, before + rvec3(real(caster.evaluations), real(caster.walk.steps), real(caster.walk.intervals)));
 #endif
     }
     busy = busy && !ended;

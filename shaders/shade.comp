@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "coefficients.glsl"
