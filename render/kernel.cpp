@@ -44,6 +44,7 @@ constexpr Part kParts[] = {
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
     {"brick pool", "BRICKS", "brick_resident", [](const KernelVariant& v) { return v.bricks && !v.stub; }, "--pool", "all coefficients are on the device: no page table"},
+    {"64-bit floats", "DOUBLE", "wide", [](const KernelVariant& v) { return v.precision == Precision::float64; }, "--precision double", "--precision float"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
     {"traversal alone", nullptr, "traverse", [](const KernelVariant& v) { return v.stub; }, "--stub-sampling", "samples are evaluated"},
     {"several coefficient buffers", nullptr, "coefficients1", [](const KernelVariant& v) { return !v.stub && v.coefficient_buffers > 1; },

@@ -52,11 +52,15 @@ struct Feature {
   std::string why;
 };
 
+/// The floats by which kernels find rays, roots and gradients. Pictures hold 32-bit floats in any case.
+enum class Precision { float32, float64 };
+
 class Renderer {
  public:
   struct Config {
     std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
     Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+    Precision precision = Precision::float32;  ///< of the kernels; "cpu" computes in doubles whatever it says
     std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them
     int brick = 32;           ///< edge of a brick in cells, a power of two, 4..256
     bool validation = false;  ///< Vulkan validation layers; any message throws

@@ -85,7 +85,7 @@ rvec3 out_of_order(AxisOrder r, rvec3 v) {
 
 // The ray from entry to exit of a cell: u(tau) = start + tau d, 0 <= tau <= length, crosses the planes between
 // tetrahedra (u_i = u_j) at cut.x <= cut.y <= cut.z; those outside are moved to the end.
-const real SHORTEST_PIECE = 1e-5;
+const real SHORTEST_PIECE = BY_PRECISION(1e-5, 1e-13lf);
 
 rvec3 spline_cuts(rvec3 start, rvec3 d, real len) {
   precise rvec3 gap = start.yzx - start;

@@ -23,7 +23,7 @@ real only_root(real b0, real b1, real b2, real b3, real b4) {
   real high = 1.0;
   real x = b0 / (b0 - b4);
   bool converged = false;
-  for (int i = 0; i < 24 && !converged; ++i) {
+  for (int i = 0; i < BY_PRECISION(24, 60) && !converged; ++i) {
     real y = 1.0 - x;
     real p0 = y * b0 + x * b1, p1 = y * b1 + x * b2, p2 = y * b2 + x * b3, p3 = y * b3 + x * b4;
     p0 = y * p0 + x * p1, p1 = y * p1 + x * p2, p2 = y * p2 + x * p3;
@@ -33,7 +33,7 @@ real only_root(real b0, real b1, real b2, real b3, real b4) {
     low = f > 0.0 ? x : low;
     high = f > 0.0 ? high : x;
     real next = x - f / slope;
-    converged = abs(next - x) < 1e-6;
+    converged = abs(next - x) < BY_PRECISION(1e-6, 1e-10lf);
     next = converged ? clamp(next, 0.0, 1.0) : next;
     x = (next >= low && next <= high) || converged ? next : 0.5 * (low + high);
   }
@@ -53,7 +53,7 @@ real first_root(real b[5]) {
   bool looking = true;
   bool single = false;
   real c0 = b[0], c1 = b[1], c2 = b[2], c3 = b[3], c4 = b[4];
-  for (int i = 0; i < 64 && looking; ++i) {
+  for (int i = 0; i < BY_PRECISION(64, 160) && looking; ++i) {
     // Control points on [from, to]: de Casteljau at `from`, then at `to`.
     real to = min(from + stretch, 1.0);
     real x = from, y = 1.0 - x;
@@ -73,7 +73,7 @@ real first_root(real b[5]) {
     single = !reached && changes == 1;
     bool none = !reached && changes == 0;
     // Undecided at the shortest stretch: a tangency within rounding, or a root that `from` has reached.
-    bool undecided = !reached && changes > 1 && stretch < 1e-7;
+    bool undecided = !reached && changes > 1 && stretch < BY_PRECISION(1e-7, 1e-15lf);
     root = reached || undecided ? from : root;
     looking = !(reached || single || undecided || (none && to >= 1.0));
     real clip = hull_reaches_zero(c0, c1, c2, c3, c4);

@@ -47,7 +47,7 @@ real only_root(real b[N + 1]) {
   real high = 1.0;
   real x = b[0] / (b[0] - b[N]);
   bool converged = false;
-  for (int k = 0; k < 24 && !converged; ++k) {
+  for (int k = 0; k < BY_PRECISION(24, 60) && !converged; ++k) {
     real y = 1.0 - x;
     real power = 1.0;
     real f = scaled[0];
@@ -60,7 +60,7 @@ real only_root(real b[N + 1]) {
     low = f > 0.0 ? x : low;
     high = f > 0.0 ? high : x;
     real next = x - f / slope;
-    converged = abs(next - x) < 1e-6;
+    converged = abs(next - x) < BY_PRECISION(1e-6, 1e-10lf);
     next = converged ? clamp(next, 0.0, 1.0) : next;
     x = (next >= low && next <= high) || converged ? next : 0.5 * (low + high);
   }
@@ -80,7 +80,7 @@ real first_root(real b[N + 1]) {
   bool looking = true;
   bool single = false;
   real c[N + 1] = b;
-  for (int k = 0; k < 64 && looking; ++k) {
+  for (int k = 0; k < BY_PRECISION(64, 160) && looking; ++k) {
     // Control points on [from, to].
     real to = min(from + stretch, 1.0);
     c = b;
@@ -93,7 +93,7 @@ real first_root(real b[N + 1]) {
     single = !reached && changes == 1;
     bool none = !reached && changes == 0;
     // Undecided at the shortest stretch: a tangency within rounding, or a root that `from` has reached.
-    bool undecided = !reached && changes > 1 && stretch < 1e-7;
+    bool undecided = !reached && changes > 1 && stretch < BY_PRECISION(1e-7, 1e-15lf);
     root = reached || undecided ? from : root;
     looking = !(reached || single || undecided || (none && to >= 1.0));
     real clip = steepest_reaches_zero(c);

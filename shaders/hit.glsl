@@ -5,7 +5,7 @@
 // Central differences of the spline, half-step `delta` along each lattice axis, inside the domain.
 rvec3 central_gradient(Ray ray, real t) {
   rvec3 p = ray.o + t * ray.d;
-  real delta = parameters.march.y;
+  real delta = wide(parameters.march.y, parameters.march.w);
   rvec3 g = rvec3(0.0);
   for (int i = 0; i < 3; ++i) {
     rvec3 axis = rvec3(i == 0, i == 1, i == 2);
@@ -22,7 +22,7 @@ rvec3 central_gradient(Ray ray, real t) {
 #ifdef MARCH
 const real LONGEST_REFINEMENT = 0.0;
 #else
-const real LONGEST_REFINEMENT = 0.02;
+const real LONGEST_REFINEMENT = BY_PRECISION(0.02, 1e-6lf);
 #endif
 void see_root(inout Seen seen, Ray ray, ExactRay exact, Root root) {
   SplineCell cell = spline_cell(root.cell, ray.centre);

@@ -11,8 +11,8 @@
 
 // So close behind a hit (lattice coordinates) a value within rounding of the isovalue, HIT_ROUNDING of what went into it, is taken to be
 // on the level's side: the next piece knows the crossing at a slightly different place.
-const real HIT_BAND = 0.02;
-const real HIT_ROUNDING = 1e-5;
+const real HIT_BAND = BY_PRECISION(0.02, 1e-3lf);
+const real HIT_ROUNDING = BY_PRECISION(1e-5, 2e-14lf);
 
 struct Caster {
   Walk walk;
@@ -181,7 +181,7 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     width = looking ? span : width;
     crossed = looking ? behind_hit : crossed;
     caster.done = looking ? end : caster.done;
-    caster.need_cell = looking ? !(caster.len > end + 1e-6) : caster.need_cell;
+    caster.need_cell = looking ? !(caster.len > end + BY_PRECISION(1e-6, 1e-14lf)) : caster.need_cell;
     caster.live = caster.live && (!looking || !caster.need_cell || caster.walk.t < ray.end);
     seeking = seeking && !found && caster.live;
   } while (keep_seeking(seeking, found, others, seekers));

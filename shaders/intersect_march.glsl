@@ -34,7 +34,7 @@ Caster begin_caster(Ray ray, Walk walk) {
 }
 
 real sample_time(Ray ray, real k) {
-  precise real t = ray.begin + k * parameters.march.x;
+  precise real t = ray.begin + k * wide(parameters.march.x, parameters.march.z);
   return min(t, ray.end);
 }
 
@@ -50,7 +50,7 @@ void enter_interval(Ray ray, inout Caster caster, bool wanted) {
 #endif
   caster.live = caster.live && (!wanted || found);
   // From the last sample before the interval, unless it has been taken.
-  real first = floor((caster.walk.t - ray.begin) / parameters.march.x);
+  real first = floor((caster.walk.t - ray.begin) / wide(parameters.march.x, parameters.march.z));
   caster.k = wanted ? max(caster.k, first) : caster.k;
   caster.leave = wanted ? leave : caster.leave;
   caster.walk.t = wanted ? leave : caster.walk.t;
@@ -69,7 +69,7 @@ real sample_value(Ray ray, real t, real offset) { return spline_value_at(ray.o +
 // The root between a (value fa) and b (value fb, on the other side).
 real refine_root(Ray ray, real a, real fa, real b, real fb, real isovalue, bool wanted, inout uint evaluations) {
   bool refining = wanted && fb != 0.0;
-  for (int i = 0; i < 12 && subgroupAny(refining); ++i) {
+  for (int i = 0; i < BY_PRECISION(12, 40) && subgroupAny(refining); ++i) {
     real x = clamp(b - fb * (b - a) / (fb - fa), min(a, b), max(a, b));
     real fx = sample_value(ray, x, isovalue);
     evaluations += refining ? 1u : 0u;
@@ -77,7 +77,7 @@ real refine_root(Ray ray, real a, real fa, real b, real fb, real isovalue, bool 
     real kept = other_side ? fb : 0.5 * fa;
     a = refining && other_side ? b : a;
     fa = refining ? kept : fa;
-    bool close = abs(x - b) < 1e-5;
+    bool close = abs(x - b) < BY_PRECISION(1e-5, 1e-12lf);
     b = refining ? x : b;
     fb = refining ? fx : fb;
     refining = refining && !close && fx != 0.0;

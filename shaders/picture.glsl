@@ -29,11 +29,11 @@ int pixel_number(ivec2 pixel) { return (pixel.y - parameters.picture.z) * parame
 
 void write_pixel(ivec2 pixel, rvec4 rgba, rvec4 normal_and_depth) {
   int p = pixel_number(pixel);
-  color[p] = rgba;
-  hit[p] = normal_and_depth;
+  color[p] = narrow(rgba);
+  hit[p] = narrow(normal_and_depth);
 }
 
 #ifdef COST
 rvec3 read_cost(ivec2 pixel) { return cost[pixel_number(pixel)].xyz; }
-void write_cost(ivec2 pixel, rvec3 counts) { cost[pixel_number(pixel)] = rvec4(counts, 0.0); }
+void write_cost(ivec2 pixel, rvec3 counts) { cost[pixel_number(pixel)] = vec4(counts, 0.0); }
 #endif

@@ -14,14 +14,15 @@ struct Ray {
 
 // Keeps an axis the ray hardly moves along off the integer planes: a ray inside a face of the domain or of cells stays on one side.
 void step_off_planes(inout Ray ray, rvec3 centre) {
-  rvec3 nudge = max(rvec3(1e-5), centre * 5e-7);
+  rvec3 nudge = max(rvec3(BY_PRECISION(1e-5, 1e-13lf)), centre * BY_PRECISION(5e-7, 2e-14lf));
   rvec3 u = ray.o + centre;
   rvec3 k = round(u);
   rvec3 side = mix(rvec3(1.0), rvec3(-1.0), greaterThanEqual(k, 2.0 * centre));
-  bvec3 still = lessThan(abs(ray.d), rvec3(1e-9));
+  bvec3 still = lessThan(abs(ray.d), rvec3(BY_PRECISION(1e-9, 1e-12lf)));
   bvec3 on = lessThan(abs(u - k), nudge);
   ray.o = mix(ray.o, (k - centre) + side * nudge, bvec3(still.x && on.x, still.y && on.y, still.z && on.z));
-  ray.d = mix(ray.d, mix(rvec3(-1e-18), rvec3(1e-18), greaterThanEqual(ray.d, rvec3(0.0))), lessThan(abs(ray.d), rvec3(1e-18)));
+  const real least = BY_PRECISION(1e-18, 1e-30lf);
+  ray.d = mix(ray.d, mix(rvec3(-least), rvec3(least), greaterThanEqual(ray.d, rvec3(0.0))), lessThan(abs(ray.d), rvec3(least)));
 }
 
 // The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` is left to the caller.
@@ -49,12 +50,15 @@ Ray clipped_ray(rvec3 o, rvec3 d, real t_eye) {
 Ray make_ray(ivec2 pixel) {
   real x = real(2 * pixel.x + 1 - parameters.picture.x) / real(parameters.picture.x);
   real y = real(parameters.picture.y - 2 * pixel.y - 1) / real(parameters.picture.y);
-  precise rvec3 direction = parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz);
+  precise rvec3 direction = wide(parameters.forward_hi.xyz, parameters.forward_lo.xyz) +
+                            (x * wide(parameters.right_hi.xyz, parameters.right_lo.xyz) + y * wide(parameters.up_hi.xyz, parameters.up_lo.xyz));
   precise real len = length(direction);
   precise rvec3 d = direction / len;
-  precise rvec3 o = parameters.base_hi.xyz + (x * parameters.base_right_hi.xyz + y * parameters.base_up_hi.xyz);
-  Ray ray = clipped_ray(o, d, -parameters.base_hi.w * len);
-  ray.view = normalize(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
+  precise rvec3 o = wide(parameters.base_hi.xyz, parameters.base_lo.xyz) +
+                    (x * wide(parameters.base_right_hi.xyz, parameters.base_right_lo.xyz) + y * wide(parameters.base_up_hi.xyz, parameters.base_up_lo.xyz));
+  Ray ray = clipped_ray(o, d, -wide(parameters.base_hi.w, parameters.base_lo.w) * len);
+  ray.view = normalize(wide(parameters.world_forward.xyz, parameters.world_forward_lo.xyz) + x * wide(parameters.world_right.xyz, parameters.world_right_lo.xyz) +
+                       y * wide(parameters.world_up.xyz, parameters.world_up_lo.xyz));
   return ray;
 }
 

@@ -44,7 +44,13 @@ void main() {
     bool hit = next_hit(ray, caster, busy, next < last, root);
     bool ended = busy && (hit || !caster.live);
     if (ended) {
+#ifdef DOUBLE
+      uvec4 packed = pack_root(hit, root);
+      ray_list[2u * number] = uvec4(pack_pixel(pending.pixel), 0u, packed.xy);
+      ray_list[2u * number + 1u] = uvec4(packed.zw, 0u, 0u);
+#else
       ray_list[number] = uvec4(pack_pixel(pending.pixel), pack_root(hit, root));
+#endif
 #ifdef COST
       rvec3 before = read_cost(pending.pixel);
       write_cost(pending.pixel, before + rvec3(real(caster.evaluations), real(caster.walk.steps), real(caster.walk.intervals)));

@@ -2,7 +2,8 @@
 
 // The unit normal in the world, facing the viewer, from a gradient in lattice coordinates of any length.
 rvec3 facing_normal(Ray ray, rvec3 gradient) {
-  rvec3 n = gradient.x * parameters.normal_x.xyz + gradient.y * parameters.normal_y.xyz + gradient.z * parameters.normal_z.xyz;
+  rvec3 n = gradient.x * wide(parameters.normal_x.xyz, parameters.normal_x_lo.xyz) + gradient.y * wide(parameters.normal_y.xyz, parameters.normal_y_lo.xyz) +
+            gradient.z * wide(parameters.normal_z.xyz, parameters.normal_z_lo.xyz);
   real largest = max(abs(n.x), max(abs(n.y), abs(n.z)));
   n = largest > 0.0 ? normalize(n / largest) : -ray.view;
   return dot(n, ray.view) > 0.0 ? -n : n;

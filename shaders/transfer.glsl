@@ -6,7 +6,7 @@ layout(binding = 18) uniform samplerBuffer transferTable;
 rvec4 share_of(rvec4 stretch, real part) {
   real a = stretch.a;
   real series = part * (1.0 + (1.0 - part) / 2.0 * a * (1.0 + (2.0 - part) / 3.0 * a * (1.0 + (3.0 - part) / 4.0 * a * (1.0 + (4.0 - part) / 5.0 * a))));
-  real ratio = a < 0.0625 ? series : (1.0 - pow(max(1.0 - a, 2.98023224e-8), part)) / a;
+  real ratio = a < 0.0625 ? series : (1.0 - pow(float(max(1.0 - a, 2.98023224e-8)), float(part))) / a;
   return part < 1.0 ? stretch * ratio : stretch;
 }
 

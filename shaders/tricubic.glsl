@@ -84,7 +84,7 @@ void spline_restrict(SplineCell cell, AxisOrder order, rvec3 a, rvec3 d, real of
   add_product(plane_polynomial(cell, 2, x, y), z.third, b);
   add_product(plane_polynomial(cell, 3, x, y), z.fourth, b);
   const real inverse_binomial[SPLINE_DEGREE + 1] =
-      real[10](1.0, 1.0 / 9.0, 1.0 / 36.0, 1.0 / 84.0, 1.0 / 126.0, 1.0 / 126.0, 1.0 / 84.0, 1.0 / 36.0, 1.0 / 9.0, 1.0);
+      real[10](1.0, real(1.0) / 9.0, real(1.0) / 36.0, real(1.0) / 84.0, real(1.0) / 126.0, real(1.0) / 126.0, real(1.0) / 84.0, real(1.0) / 36.0, real(1.0) / 9.0, 1.0);
   for (int i = 0; i <= SPLINE_DEGREE; ++i) {
     precise real coefficient_less = b[i] * inverse_binomial[i] - offset;
     b[i] = coefficient_less;

@@ -33,8 +33,8 @@ void spline_restrict(SplineCell cell, AxisOrder order, rvec3 a, rvec3 d, real of
   precise rvec3 face_rise = rvec3(pp.y, middle.y, qq.y) - face;
   precise rvec3 begin = face + a.z * face_rise;
   precise rvec3 end = begin + d.z * face_rise;
-  precise real b1 = (begin.y + end.x) * (1.0 / 3.0);
-  precise real b2 = (begin.z + end.y) * (1.0 / 3.0);
+  precise real b1 = (begin.y + end.x) * (1.0 / real(3.0));
+  precise real b2 = (begin.z + end.y) * (1.0 / real(3.0));
   b[0] = begin.x;
   b[1] = b1;
   b[2] = b2;

@@ -88,11 +88,13 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
   volume.walk = walk;
   real x = real(2 * pixel.x + 1 - parameters.picture.x) / real(parameters.picture.x);
   real y = real(parameters.picture.y - 2 * pixel.y - 1) / real(parameters.picture.y);
-  precise real lattice = length(parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz));
-  precise real world = length(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
+  precise real lattice = length(wide(parameters.forward_hi.xyz, parameters.forward_lo.xyz) +
+                                (x * wide(parameters.right_hi.xyz, parameters.right_lo.xyz) + y * wide(parameters.up_hi.xyz, parameters.up_lo.xyz)));
+  precise real world = length(wide(parameters.world_forward.xyz, parameters.world_forward_lo.xyz) +
+                              x * wide(parameters.world_right.xyz, parameters.world_right_lo.xyz) + y * wide(parameters.world_up.xyz, parameters.world_up_lo.xyz));
   volume.world_per_t = world / lattice;
-  volume.depth = parameters.base_hi.w * world;
-  volume.dt = parameters.sampling.x * (lattice / world);
+  volume.depth = wide(parameters.base_hi.w, parameters.base_lo.w) * world;
+  volume.dt = wide(parameters.sampling.x, parameters.sampling.y) * (lattice / world);
   volume.inverse = 1.0 / volume.dt;
 #ifdef JITTER
   volume.shift = pixel_noise(pixel);
@@ -212,7 +214,8 @@ struct Look {
 
 #if defined(LIT) || defined(MODULATED)
 rvec3 world_gradient(rvec3 gradient) {
-  return gradient.x * parameters.normal_x.xyz + gradient.y * parameters.normal_y.xyz + gradient.z * parameters.normal_z.xyz;
+  return gradient.x * wide(parameters.normal_x.xyz, parameters.normal_x_lo.xyz) + gradient.y * wide(parameters.normal_y.xyz, parameters.normal_y_lo.xyz) +
+         gradient.z * wide(parameters.normal_z.xyz, parameters.normal_z_lo.xyz);
 }
 #endif
 #ifdef LIT
@@ -238,7 +241,7 @@ Look look(Ray ray, VolumeRay volume, real t) {
   rvec3 gradient;
   spline_jet(cell, u, low, value, gradient);
 #ifdef ADAPTIVE
-  seen.change = abs(dot(gradient, ray.d)) * (volume.dt * parameters.transfer.y / SPLINE_SCALE);
+  seen.change = abs(dot(gradient, ray.d)) * (volume.dt * wide(parameters.transfer.y, parameters.transfer.w) / SPLINE_SCALE);
 #endif
 #if defined(LIT) || defined(MODULATED)
   rvec3 n = world_gradient(gradient);
@@ -253,7 +256,7 @@ Look look(Ray ray, VolumeRay volume, real t) {
 #else
   value = spline_value(cell, u, low);
 #endif
-  seen.place = value * (parameters.transfer.y / SPLINE_SCALE);
+  seen.place = value * (wide(parameters.transfer.y, parameters.transfer.w) / SPLINE_SCALE);
 #ifdef PRE_INTEGRATED
   seen.place = clamp(seen.place, -1e18, 1e18);
 #else
