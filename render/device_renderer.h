@@ -20,6 +20,7 @@ namespace quincunx {
 struct DeviceLimits {
   std::uint64_t texel_elements = 0;  ///< of one coefficient buffer
   std::uint64_t frame_bytes = 0;     ///< of one buffer of the picture
+  bool no_float64 = false;           ///< as of a device without 64-bit floats
 };
 
 class DeviceRenderer final : public Renderer {
@@ -41,6 +42,8 @@ class DeviceRenderer final : public Renderer {
     gpu::Buffer color, hit, cost, rays, parked;
   };
 
+  /// Throws DeviceError where the device cannot compute in config_.precision.
+  void check_precision() const;
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   /// Where nothing is skipped: throws InputError for samples of the source that are not finite, as prepare_bounds does.
@@ -74,7 +77,8 @@ class DeviceRenderer final : public Renderer {
   DeviceLimits limits_;
   std::unique_ptr<Spline> spline_;
   Volume volume_;  ///< until the coefficients are made
-  std::optional<Coefficients<float>> coefficients_;  ///< without data where there is a source
+  std::optional<Coefficients<float>> coefficients_;  ///< rounded, for bounds, where kernels read doubles; without data where there is a source
+  double value_rounding_ = 0.0;  ///< of kernels that compute in doubles (render/tracer.h)
   CoefficientTexels texels_;
   std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
   std::string what_;                            ///< the source's name

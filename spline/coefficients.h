@@ -37,4 +37,9 @@ struct Coefficients {
   }
 };
 
+/// Those of the reference as kernels of 32-bit floats read them: what coefficients_float makes.
+inline Coefficients<float> narrowed(const Coefficients<double>& c) {
+  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end())};
+}
+
 }  // namespace quincunx
