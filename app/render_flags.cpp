@@ -95,6 +95,7 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   add_intersect(app, flags)->group(group);
   add_step(app, flags)->group(group);
   add_spline(app, flags)->group(group);
+  add_precision(app, flags)->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
              "The spline's gradient, or central differences")
       ->group(group);
@@ -190,6 +191,11 @@ CLI::Option* add_spline(CLI::App& app, RenderFlags& flags) {
   return app.add_option("--spline", flags.config.spline, "Reconstruction: bcc7; trilinear, tricubic for Cartesian volumes")->type_name("SPLINE");
 }
 
+CLI::Option* add_precision(CLI::App& app, RenderFlags& flags) {
+  return add_choice(app, "--precision", flags.config.precision, {{"float", Precision::float32}, {"double", Precision::float64}},
+                    "Of what a device computes: 32-bit floats, or 64-bit ones where it has them");
+}
+
 void check_something_is_seen(const RenderFlags& flags) {
   check_volume_flags(flags.look);
   if (!flags.isovalues.empty() || !flags.look.transfer_function.empty()) return;
@@ -204,6 +210,8 @@ void check_render_flags(const RenderFlags& flags) {
   }
   check_count(flags.colors.size(), flags.isovalues.size(), "--color");
   check_count(flags.opacities.size(), flags.isovalues.size(), "--opacity");
+  if (flags.config.precision == Precision::float64 && flags.config.pool_bytes)
+    throw InputError("--precision: found double with --pool, expected float: bricks hold 32-bit floats");
   check_camera_flags(flags.camera);
   check_skip_flags(flags.skip);
   check_outputs(flags);

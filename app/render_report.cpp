@@ -92,6 +92,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   if (scene.intersect == Intersect::march) json["step"] = scene.step;
   json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
   if (scene.normal == Normal::central) json["delta"] = scene.delta;
+  json["precision"] = precision_name(stats.precision);
   json["structure"] = stats.skip.structure;
   if (stats.skip.structure == "bvh") json["cluster"] = clustering_name(stats.skip.clustering);
   if (stats.skip.structure == "kdtree") json["kd"] = kd_name(stats.skip.kd);

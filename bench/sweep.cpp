@@ -98,6 +98,8 @@ void check_sweep_flags(const SweepFlags& flags) {
   check_something_is_seen(flags.scene);
   refuse_reference(flags.device);
   if (flags.bricks.empty()) return;
+  if (flags.scene.config.precision == Precision::float64)
+    throw InputError("--bricks: found --precision double, expected --precision float: bricks hold 32-bit floats");
   if (!flags.scene.isovalues.empty() && flags.scene.scene.intersect == Intersect::march)
     throw InputError("--bricks: found --intersect march, expected --intersect exact");
 }
@@ -122,6 +124,7 @@ void sweep(const SweepFlags& flags) {
                      .rounds = flags.rounds,
                      .intersect = scene.intersect,
                      .step = scene.step,
+                     .precision = flags.scene.config.precision,
                      .choices = flags.choices,
                      .machine = {},
                      .settings = {},
@@ -148,6 +151,7 @@ void add_scene_flags(CLI::App& app, RenderFlags& flags) {
   add_step(app, flags);
   add_spline(app, flags);
   add_nan(app, flags.config.nan);
+  add_precision(app, flags);
   add_volume_flags(app, flags.look);
 }
 

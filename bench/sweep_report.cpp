@@ -208,6 +208,7 @@ std::string sweep_method(const SweepReport& report) {
   if (report.look)
     parts.push_back(fmt::format("{}{}, steps of {} cell{}", report.look->classify == Classify::post ? "post" : "pre-integrated",
                                 report.look->shade ? "" : ", unlit", report.look->step, report.look->step == 1.0 ? "" : "s"));
+  if (report.precision == Precision::float64) parts.push_back("in 64-bit floats");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -336,6 +337,7 @@ Json sweep_json(const SweepReport& report) {
             {"repeat", report.rounds},
             {"intersect", report.intersect == Intersect::exact ? "exact" : "march"}};
   if (report.intersect == Intersect::march) json["step"] = report.step;
+  json["precision"] = precision_name(report.precision);
   if (report.look) {
     json["transfer_function"] = volume_json(*report.look);
     json["transfer_function"]["file"] = report.transfer_function;

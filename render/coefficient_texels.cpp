@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
 
 #include "lattice/error.h"
@@ -33,21 +34,33 @@ TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, co
 
 std::uint64_t most_coefficients(std::uint64_t texel_elements) { return std::min(kMostNumbers, kMostBuffers * elements_of_each(texel_elements)); }
 
-CoefficientTexels::CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label)
-    : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)) {
+CoefficientTexels::CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label,
+                                     Precision precision)
+    : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)), precision_(precision) {
   // Kernels read every buffer at every number: all are of one length.
-  each_ = layout_.buffers == 1 ? std::int64_t(numbers) : std::int64_t(1) << layout_.shift;
+  each_ = (layout_.buffers == 1 ? numbers : std::uint64_t(1) << layout_.shift) * coefficient_bytes(precision);
+  const VkFormat format = precision == Precision::float32 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32_UINT;
   for (int i = 0; i < layout_.buffers; ++i)
-    buffers_.push_back(gpu::create_buffer(device, std::uint64_t(each_) * sizeof(float), gpu::BufferUse::texel, label, VK_FORMAT_R32_SFLOAT));
+    buffers_.push_back(gpu::create_buffer(device, each_, gpu::BufferUse::texel, label, format));
 }
 
 void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const float> numbers) const {
-  while (!numbers.empty()) {
-    const std::int64_t at = first % each_;
-    const std::size_t count = std::size_t(std::min<std::int64_t>(std::int64_t(numbers.size()), each_ - at));
-    gpu::upload(device, buffers_[std::size_t(first / each_)], std::as_bytes(numbers.first(count)), std::uint64_t(at) * sizeof(float));
-    numbers = numbers.subspan(count);
-    first += std::int64_t(count);
+  assert(precision_ == Precision::float32);
+  upload_bytes(device, std::uint64_t(first) * sizeof(float), std::as_bytes(numbers));
+}
+
+void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const double> numbers) const {
+  assert(precision_ == Precision::float64);
+  upload_bytes(device, std::uint64_t(first) * sizeof(double), std::as_bytes(numbers));
+}
+
+void CoefficientTexels::upload_bytes(gpu::Device& device, std::uint64_t offset, std::span<const std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const std::uint64_t at = offset % each_;
+    const std::size_t count = std::size_t(std::min<std::uint64_t>(bytes.size(), each_ - at));
+    gpu::upload(device, buffers_[std::size_t(offset / each_)], bytes.first(count), at);
+    bytes = bytes.subspan(count);
+    offset += count;
   }
 }
 

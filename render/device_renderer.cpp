@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -11,6 +13,7 @@
 #include "lattice/error.h"
 #include "lattice/stopwatch.h"
 #include "render/seen_values.h"
+#include "render/tracer.h"
 #include "render/transfer_table.h"
 
 namespace quincunx {
@@ -19,7 +22,7 @@ namespace {
 constexpr int kTile = 8;                     // pixels of a group's edge
 constexpr std::int64_t kBandPixels = 1 << 21;  // of one dispatch at most, so that progress and Ctrl-C come through
 constexpr std::uint64_t kPixelBytes = 16;      // of each buffer of the picture
-constexpr std::uint64_t kRayBytes = 16;        // of the list of rays.glsl
+constexpr std::uint64_t kRayBytes = 16;        // of the list of rays.glsl; twice as many where t is a double
 constexpr std::uint64_t kRayCountBytes = 16;   // before the list of rays.glsl
 constexpr std::uint64_t kParkedBytes = 96;     // of a ray of park.glsl
 constexpr std::uint32_t kTraceGroup = 64;      // rays of a group
@@ -44,6 +47,7 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volum
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
+  check_precision();
 }
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared_ptr<const SampleSource> source, const std::string& what,
@@ -52,11 +56,18 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared
   assert(config.pool_bytes);
   if (config.nan.kind == NanPolicy::Kind::empty && may_not_be_finite(volume_))
     throw InputError("--nan: found empty for a volume that is read brick by brick (--pool), expected fill=V or refuse");
+  if (config.precision == Precision::float64)
+    throw InputError("--precision: found double with a pool of bricks (--pool), expected float: bricks hold 32-bit floats");
   source_ = config.nan.kind == NanPolicy::Kind::fill ? filled_source(std::move(source), config.nan.value) : std::move(source);
   what_ = what;
 }
 
 // ---- what a request needs ----
+
+void DeviceRenderer::check_precision() const {
+  if (config_.precision == Precision::float32 || (gpu::features(device_).float64 && !limits_.no_float64)) return;
+  throw gpu::DeviceError(fmt::format("--precision: found double, expected float: {} has no 64-bit floats (shaderFloat64)", gpu::info(device_).name));
+}
 
 void DeviceRenderer::check_cells() const {
   const glm::i64vec3 cells = domain_max(volume_.lattice, volume_.extents);
@@ -105,6 +116,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.cost = request.scene.cost || v.stub;
   v.bricks = source_ != nullptr;
   v.voids = voids_ && voids_->count > 0;
+  v.precision = config_.precision;
   v.coefficient_buffers = layout.buffers;
   v.coefficient_shift = layout.shift;
   return v;
@@ -152,13 +164,28 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   prepare_samples(stats);
   const Stopwatch prefilter;
   const SampleRange range = sample_range(volume_);
-  coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, float_unit(volume_.type(), range.min, range.max), progress);
+  const ValueUnit unit = float_unit(volume_.type(), range.min, range.max);
+  const bool doubles = config_.precision == Precision::float64;
+  Coefficients<double> exact;
+  if (doubles) {
+    exact = spline_->coefficients(volume_, config_.prefilter, progress);
+    exact.unit = unit;
+    for (double& c : exact.data) c = unit.number(c);
+    value_rounding_ = value_rounding(exact);
+    coefficients_ = narrowed(exact);
+  } else {
+    coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, unit, progress);
+  }
   stats.prefilter_ms += prefilter.ms();
   volume_.samples = {};
 
   const Stopwatch upload;
-  texels_ = CoefficientTexels(device_, coefficients_->data.size(), limits_.texel_elements, "coefficients");
-  texels_.upload(device_, 0, coefficients_->data);
+  texels_ = CoefficientTexels(device_, coefficients_->data.size(), limits_.texel_elements, "coefficients", config_.precision);
+  if (doubles) {
+    texels_.upload(device_, 0, exact.data);
+  } else {
+    texels_.upload(device_, 0, coefficients_->data);
+  }
   stats.upload_ms += upload.ms();
 }
 
@@ -205,7 +232,9 @@ SkipChoice DeviceRenderer::complete(const Request& request, RenderStats& stats, 
 void DeviceRenderer::upload_isosurfaces(const std::vector<Isosurface>& isosurfaces) {
   std::vector<float> data;
   for (const Isosurface& s : isosurfaces) {
-    data.insert(data.end(), {kernel_isovalue(s.isovalue, coefficients_->unit), float(s.opacity), 0.0f, 0.0f});
+    const ValueUnit& unit = coefficients_->unit;
+    const auto words = std::bit_cast<std::array<float, 2>>(unit.number(s.isovalue) - value_rounding_);
+    data.insert(data.end(), {kernel_isovalue(s.isovalue, unit), float(s.opacity), words[0], words[1]});
     data.insert(data.end(), {float(s.color.r), float(s.color.g), float(s.color.b), 0.0f});
   }
   if (data.empty()) return;
@@ -230,7 +259,8 @@ void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stat
 // ---- pictures ----
 
 DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
-  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / (bricks_ ? kParkedBytes : kPixelBytes)));
+  const std::uint64_t ray_bytes = kRayBytes * (config_.precision == Precision::float64 ? 2 : 1);
+  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / (bricks_ ? kParkedBytes : std::max(kPixelBytes, ray_bytes))));
   const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / scene.width / kTile * kTile);
   Band band;
   band.rows = int(std::min<std::int64_t>(rows, scene.height));
@@ -239,7 +269,7 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   band.hit = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "hit");
   if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
   if (bricks_) band.parked = gpu::create_buffer(device_, bytes / kPixelBytes * kParkedBytes, gpu::BufferUse::storage, "parked");
-  band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * kRayBytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
+  band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * ray_bytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
   return band;
 }
 
@@ -352,6 +382,7 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
 
 void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   stats.device = gpu::info(device_).name;
+  stats.precision = config_.precision;
   stats.device_bytes.clear();
   if (bricks_) {
     bricks_->describe(stats);

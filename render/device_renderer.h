@@ -21,6 +21,7 @@ namespace quincunx {
 struct DeviceLimits {
   std::uint64_t texel_elements = 0;  ///< of one coefficient buffer
   std::uint64_t frame_bytes = 0;     ///< of one buffer of the picture
+  bool no_float64 = false;           ///< as of a device without 64-bit floats
 };
 
 class DeviceRenderer final : public Renderer {
@@ -42,6 +43,8 @@ class DeviceRenderer final : public Renderer {
     gpu::Buffer color, hit, cost, rays, parked;
   };
 
+  /// Throws DeviceError where the device cannot compute in config_.precision.
+  void check_precision() const;
   /// Makes the samples finite, as config_.nan says, and finds the void cells.
   void prepare_samples(RenderStats& stats);
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
@@ -82,7 +85,8 @@ class DeviceRenderer final : public Renderer {
   std::unique_ptr<Spline> spline_;
   Volume volume_;  ///< until the coefficients are made
   std::optional<VoidCells> voids_;
-  std::optional<Coefficients<float>> coefficients_;  ///< without data where there is a source
+  std::optional<Coefficients<float>> coefficients_;  ///< rounded, for bounds, where kernels read doubles; without data where there is a source
+  double value_rounding_ = 0.0;  ///< of kernels that compute in doubles (render/tracer.h)
   CoefficientTexels texels_;
   std::shared_ptr<const SampleSource> source_;  ///< of bricks; null where all coefficients are on the device
   std::string what_;                            ///< the source's name

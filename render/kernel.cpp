@@ -46,6 +46,7 @@ constexpr Part kParts[] = {
     {"void cells", "VOIDS", "is_void", [](const KernelVariant& v) { return v.voids && !v.stub; }, "--nan empty, and samples are not finite",
      "every sample is finite, or --nan is not empty"},
     {"brick pool", "BRICKS", "brick_resident", [](const KernelVariant& v) { return v.bricks && !v.stub; }, "--pool", "all coefficients are on the device: no page table"},
+    {"64-bit floats", "DOUBLE", "wide", [](const KernelVariant& v) { return v.precision == Precision::float64; }, "--precision double", "--precision float"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
     {"traversal alone", nullptr, "traverse", [](const KernelVariant& v) { return v.stub; }, "--stub-sampling", "samples are evaluated"},
     {"several coefficient buffers", nullptr, "coefficients1", [](const KernelVariant& v) { return !v.stub && v.coefficient_buffers > 1; },

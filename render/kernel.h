@@ -26,6 +26,7 @@ struct KernelVariant {
   bool stub = false;            ///< walks the structure and evaluates nothing
   bool bricks = false;          ///< coefficients are in a brick pool
   bool voids = false;           ///< there are void cells
+  Precision precision = Precision::float32;  ///< of what decides a picture; float64 not with `bricks`
   int coefficient_buffers = 1;  ///< 1..8 texel buffers
   int coefficient_shift = 0;    ///< log2 of the elements of each, where there are several
 

@@ -7,15 +7,6 @@
 #include "lattice/stopwatch.h"
 
 namespace quincunx {
-namespace {
-
-/// The same coefficients as the kernels would read, for bounds.
-Coefficients<float> narrowed(const Coefficients<double>& c) {
-  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end()), {}};
-}
-
-}  // namespace
-
 ReferenceRenderer::ReferenceRenderer(const Volume& volume, const Config& config)
     : config_(config), spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume) {}
 
@@ -25,6 +16,7 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
     throw InputError("--stub-sampling: found --device cpu, expected a Vulkan device: the reference walks no structure");
   stats = RenderStats{};
   stats.device = "cpu (double precision)";
+  stats.precision = Precision::float64;
   if (!coefficients_) {
     const Stopwatch watch;
     voids_ = make_finite(volume_, *spline_, config_.nan);

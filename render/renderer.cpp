@@ -50,15 +50,16 @@ std::string why_not_whole(const std::string& device, const Volume& header, const
   const std::uint64_t most = most_coefficients(info.max_texel_buffer_elements);
   if (numbers > most) return fmt::format("{} coefficients are more than the {} that {} takes", numbers, most, info.name);
 
-  // Samples, coefficients, which a CPU's device holds a second time, and bounds of cells: two 16-bit numbers each.
+  // Samples; coefficients as floats, as doubles too where kernels read these, and a second time on a CPU's device; bounds of cells: two 16-bit numbers each.
   const glm::i64vec3 cells = domain_max(header.lattice, header.extents);
-  const std::uint64_t copies = info.type == "CPU" ? 2 : 1;
+  const bool doubles = config.precision == Precision::float64;
+  const std::uint64_t on_device = numbers * coefficient_bytes(config.precision), on_host = numbers * (sizeof(float) + (doubles ? sizeof(double) : 0));
   const std::uint64_t bytes = std::uint64_t(coset_count(header.lattice) * header.extents.x * header.extents.y * header.extents.z) * sample_type_bytes(header.type()) +
-                              copies * numbers * sizeof(float) + std::uint64_t(cells.x * cells.y * cells.z) * 2 * sizeof(std::uint16_t);
+                              on_host + (info.type == "CPU" ? on_device : 0) + std::uint64_t(cells.x * cells.y * cells.z) * 2 * sizeof(std::uint16_t);
   const std::uint64_t memory = memory_bytes();
   if (bytes > memory) return fmt::format("it needs {:.1f} GiB of this machine's memory, {:.1f} GiB", gib(bytes), gib(memory));
-  if (info.type != "CPU" && numbers * sizeof(float) > info.memory_bytes)
-    return fmt::format("{:.1f} GiB of coefficients are more than the {:.1f} GiB of {}", gib(numbers * sizeof(float)), gib(info.memory_bytes), info.name);
+  if (info.type != "CPU" && on_device > info.memory_bytes)
+    return fmt::format("{:.1f} GiB of coefficients are more than the {:.1f} GiB of {}", gib(on_device), gib(info.memory_bytes), info.name);
   return "";
 }
 

@@ -12,6 +12,7 @@
 #include "lattice/not_finite.h"
 #include "lattice/progress.h"
 #include "lattice/sample_source.h"
+#include "render/precision.h"
 #include "render/scene.h"
 #include "spline/spline.h"
 
@@ -30,6 +31,7 @@ struct BrickStats {
 struct RenderStats {
   std::string device;
   SkipConfig skip;  ///< as it was used
+  Precision precision = Precision::float32;  ///< likewise
   double prefilter_ms = 0, upload_ms = 0, compile_ms = 0;
   double table_ms = 0;     ///< of the transfer function, for the kernel
   double bounds_ms = 0;    ///< of cells and blocks, and what a structure makes of them alone: once a volume and block size
@@ -60,6 +62,7 @@ class Renderer {
     std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
     Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
     NanPolicy nan;       ///< what becomes of samples that are not finite
+    Precision precision = Precision::float32;  ///< of the kernels; float64 not with a pool. "cpu" computes in doubles in any case
     std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them
     int brick = 32;           ///< edge of a brick in cells, a power of two, 4..256
     bool validation = false;  ///< Vulkan validation layers; any message throws
@@ -90,12 +93,12 @@ std::uint64_t default_pool_bytes(const std::string& device);
 
 /// Makes a volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
-/// Throws InputError for a volume of another lattice than the spline's, one that has NaN or infinite samples where config.nan refuses them, or a
-/// device that is not there.
+/// Throws InputError for a volume of another lattice than the spline's or one that has NaN or infinite samples where config.nan refuses them,
+/// DeviceError for a device that is not there or cannot compute in config.precision.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
 
 /// The same for samples that stay where they are and are read brick by brick into a pool of config.pool_bytes, which is set. `what` names
-/// them in errors. Not for "cpu". Throws InputError also for what a pool of bricks cannot show: marching, central differences, void cells.
+/// them in errors. Not for "cpu". Throws InputError also for what a pool of bricks cannot show: marching, central differences, void cells, float64.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, std::shared_ptr<const SampleSource> source, const std::string& what,
                                         const Renderer::Config& config);
 

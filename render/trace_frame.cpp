@@ -27,6 +27,11 @@ void store(const glm::dvec3& x, double w, vec4& hi, vec4& lo) {
 
 vec4 narrow(const glm::dvec3& x, double w = 0.0) { return vec4(glm::vec3(x), float(w)); }
 
+void store(const glm::dvec3& x, vec4& hi, vec4& lo) {
+  hi = narrow(x);
+  lo = vec4(low(x.x), low(x.y), low(x.z), 0.0f);
+}
+
 /// The inverse of the world's axes; throws where there is none.
 glm::dmat3 inverse_axes(const World& world) {
   const glm::dmat3 inverse = glm::inverse(world.axes);
@@ -62,10 +67,11 @@ void check_stretches(const DirectVolume& volume, double cell, double radius) {
 /// What a volume's kernels are told but for its table. `scale`: by how much world gradients, in the coefficients' unit, are more than normal_x..
 /// makes of them.
 void store_volume(const DirectVolume& volume, double cell, double scale, const ValueUnit& unit, TraceParameters& p) {
-  p.sampling = vec4(float(volume.step * cell), 0.0f, float(volume.termination), std::bit_cast<float>(volume.jitter.value_or(0)));
+  p.sampling = vec4(high(volume.step * cell), low(volume.step * cell), float(volume.termination), std::bit_cast<float>(volume.jitter.value_or(0)));
   const double last = volume.table_entries() - 1;
-  const double low = float_below(volume.function.low()), high = float_above(volume.function.high());
-  p.transfer = vec4(float(unit.number(low)), float(last / (high - low) * unit.scale), float(last), 0.0f);
+  const double lowest = float_below(volume.function.low()), highest = float_above(volume.function.high());
+  const double entries = last / (highest - lowest) * unit.scale;
+  p.transfer = vec4(float(unit.number(lowest)), high(entries), float(last), low(entries));
   if (volume.modulated())
     p.modulation = vec4(float(volume.modulate_from), float(1.0 / (volume.modulate_to - volume.modulate_from)), float(scale * unit.scale), 0.0f);
   p.modulation.w = float(volume.finest * last);
@@ -94,9 +100,9 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
 
   const double tangent_x = glm::length(frame.right), tangent_y = glm::length(frame.up);
   p.tangent = vec4(high(tangent_x), low(tangent_x), high(tangent_y), low(tangent_y));
-  p.world_forward = narrow(frame.forward);
-  p.world_right = narrow(frame.right);
-  p.world_up = narrow(frame.up);
+  store(frame.forward, p.world_forward, p.world_forward_lo);
+  store(frame.right, p.world_right, p.world_right_lo);
+  store(frame.up, p.world_up, p.world_up_lo);
 
   // Only the direction of a normal matters: scale the matrix into the middle of the floats.
   glm::dmat3 normal = glm::transpose(to_lattice);
@@ -108,12 +114,12 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
     check_stretches(*scene.volume, cell_length(world), domain_radius(world, centre));
     store_volume(*scene.volume, cell_length(world), largest, coefficients.unit, p);
   }
-  p.normal_x = narrow(normal[0]);
-  p.normal_y = narrow(normal[1]);
-  p.normal_z = narrow(normal[2]);
+  store(normal[0], p.normal_x, p.normal_x_lo);
+  store(normal[1], p.normal_y, p.normal_y_lo);
+  store(normal[2], p.normal_z, p.normal_z_lo);
 
   p.background = narrow(scene.background, scene.ambient);
-  p.march = vec4(float(scene.step), float(scene.delta), 0.0f, 0.0f);
+  p.march = vec4(high(scene.step), high(scene.delta), low(scene.step), low(scene.delta));
   p.cells = ivec4(glm::ivec3(cells), int(scene.isosurfaces.size()));
   p.strides = ivec4(int(coefficients.stride_y()), int(coefficients.stride_z()), int(coefficients.stride_coset()),
                     int(coefficients.number(0, glm::i64vec3(0))));

@@ -19,12 +19,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Rounding of a value that the spline computes, as a part of the largest coefficient: sums of some dozens of terms.
 constexpr double kValueRounding = 16.0 * kEpsilon;
 
-double largest_magnitude(const std::vector<double>& data) {
-  double largest = 0.0;
-  for (const double x : data) largest = std::max(largest, std::abs(x));
-  return largest;
-}
-
 bool visit_all(const std::vector<Crossing>& crossings, const Tracer::Visitor& visit) {
   return std::all_of(crossings.begin(), crossings.end(), visit);
 }
@@ -35,6 +29,12 @@ void sort_along_ray(std::vector<Crossing>& crossings) {
 }
 
 }  // namespace
+
+double value_rounding(const Coefficients<double>& coefficients) {
+  double largest = 0.0;
+  for (const double x : coefficients.data) largest = std::max(largest, std::abs(x));
+  return kValueRounding * largest;
+}
 
 Tracer::Tracer(const Spline& spline, const Coefficients<double>& coefficients, std::span<const double> isovalues,
                const CellBounds* cells, const Config& config, const VoidCells* voids)
@@ -48,9 +48,7 @@ Tracer::Tracer(const Spline& spline, const Coefficients<double>& coefficients, s
   assert(spline.lattice() == coefficients.lattice && spline.apron() <= coefficients.apron);
   assert(spline.degree() <= kMaxDegree);
   assert(std::is_sorted(isovalues_.begin(), isovalues_.end()));
-  // A value equal to the isovalue counts as above it. So that rounding does not decide in places that are exactly
-  // equal (a plateau, a tangent), all isovalues stand lower by it.
-  const double rounding = kValueRounding * largest_magnitude(coefficients.data);
+  const double rounding = value_rounding(coefficients);
   for (double& isovalue : isovalues_) isovalue -= rounding;
   if (cells == nullptr) return;
   assert(cells->cells == glm::i64vec3(cells_));

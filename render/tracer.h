@@ -28,6 +28,10 @@ struct RayCost {
   std::uint32_t intervals = 0;    ///< runs of them that were looked at
 };
 
+/// By how much rounding may move a value that the spline computes of these coefficients in double precision. Casters that do take all isovalues
+/// to be lower by it, so that what equals one (a plateau, a tangent) counts as above it, as it has to.
+double value_rounding(const Coefficients<double>& coefficients);
+
 /// Finds the crossings of rays with isosurfaces of one spline. Safe to use from many threads, a workspace each.
 class Tracer {
  public:

@@ -5,21 +5,22 @@
 // axes every stencil looks alike, so strides are signed and permuted instead of tables. All values are
 // SPLINE_SCALE times the spline's: the division never happens.
 #define COEFFICIENT(number) coefficient(number)
+#define BCC7_FLOAT precise real
 #include "bcc7_tables.glsl"
 
-const float SPLINE_SCALE = BCC7_SCALE;
+const real SPLINE_SCALE = BCC7_SCALE;
 #define SPLINE_DEGREE 4
 #define SPLINE_CUTS 3
 
 // A cell and where its samples are.
 struct SplineCell {
-  vec3 even;     // E relative to the domain's centre
-  vec3 sign;     // +-1
+  rvec3 even;    // E relative to the domain's centre
+  rvec3 sign;    // +-1
   ivec3 stride;  // signed numbers of coefficients per lattice step of 2 along each axis
   int E, O;      // numbers of the corners' coefficients
 };
 
-SplineCell spline_cell(ivec3 cell, vec3 centre) {
+SplineCell spline_cell(ivec3 cell, rvec3 centre) {
   ivec3 odd = cell & 1;
   ivec3 e = cell + odd;
   ivec3 s = 1 - 2 * odd;
@@ -27,8 +28,8 @@ SplineCell spline_cell(ivec3 cell, vec3 centre) {
   ivec3 e2 = e >> 1;
   ivec3 o2 = (e + s) >> 1;
   SplineCell c;
-  c.even = vec3(e) - centre;
-  c.sign = vec3(s);
+  c.even = rvec3(e) - centre;
+  c.sign = rvec3(s);
   c.stride = s * stride;
   int origin = coefficient_origin(cell);
   c.E = origin + e2.x + e2.y * stride.y + e2.z * stride.z;
@@ -37,16 +38,16 @@ SplineCell spline_cell(ivec3 cell, vec3 centre) {
 }
 
 // u of the point o + t d, clamped into the cell.
-vec3 cell_point(SplineCell c, vec3 o, vec3 d, float t) {
-  precise vec3 u = c.sign * ((o - c.even) + t * d);
-  return clamp(u, vec3(0.0), vec3(1.0));
+rvec3 cell_point(SplineCell c, rvec3 o, rvec3 d, real t) {
+  precise rvec3 u = c.sign * ((o - c.even) + t * d);
+  return clamp(u, rvec3(0.0), rvec3(1.0));
 }
 
 // The order of axes in which u descends: which axis comes first and which last.
 struct AxisOrder {
   bool first_x, first_y, middle_x, middle_y, last_x, last_y;
 };
-AxisOrder axis_order(vec3 u) {
+AxisOrder axis_order(rvec3 u) {
   bool xy = u.x >= u.y, yz = u.y >= u.z, xz = u.x >= u.z;
   AxisOrder r;
   r.first_x = xy && xz;
@@ -69,32 +70,32 @@ AxisOrder coded_order(uint code) {
   r.middle_y = !r.first_y && !r.last_y;
   return r;
 }
-vec3 in_order(AxisOrder r, vec3 v) {
-  return vec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
+rvec3 in_order(AxisOrder r, rvec3 v) {
+  return rvec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
               r.last_x ? v.x : (r.last_y ? v.y : v.z));
 }
 ivec3 in_order(AxisOrder r, ivec3 v) {
   return ivec3(r.first_x ? v.x : (r.first_y ? v.y : v.z), r.middle_x ? v.x : (r.middle_y ? v.y : v.z),
                r.last_x ? v.x : (r.last_y ? v.y : v.z));
 }
-vec3 out_of_order(AxisOrder r, vec3 v) {
-  return vec3(r.first_x ? v.x : (r.middle_x ? v.y : v.z), r.first_y ? v.x : (r.middle_y ? v.y : v.z),
+rvec3 out_of_order(AxisOrder r, rvec3 v) {
+  return rvec3(r.first_x ? v.x : (r.middle_x ? v.y : v.z), r.first_y ? v.x : (r.middle_y ? v.y : v.z),
               !(r.first_x || r.first_y) ? v.x : (!(r.middle_x || r.middle_y) ? v.y : v.z));
 }
 
 // The ray from entry to exit of a cell: u(tau) = start + tau d, 0 <= tau <= length, crosses the planes between
 // tetrahedra (u_i = u_j) at cut.x <= cut.y <= cut.z; those outside are moved to the end.
-const float SHORTEST_PIECE = 1e-5;
+const real SHORTEST_PIECE = BY_PRECISION(1e-5, 1e-13lf);
 
-vec3 spline_cuts(vec3 start, vec3 d, float len) {
-  precise vec3 gap = start.yzx - start;
-  vec3 closing = d - d.yzx;
-  precise vec3 tau = mix(vec3(len), gap / closing, greaterThan(abs(closing), vec3(1e-12)));
-  tau = mix(min(tau, vec3(len)), vec3(len), lessThan(tau, vec3(SHORTEST_PIECE)));
-  float low = min(tau.x, min(tau.y, tau.z));
-  float high = max(tau.x, max(tau.y, tau.z));
-  float middle = max(min(tau.x, tau.y), min(max(tau.x, tau.y), tau.z));
-  return vec3(low, middle, high);
+rvec3 spline_cuts(rvec3 start, rvec3 d, real len) {
+  precise rvec3 gap = start.yzx - start;
+  rvec3 closing = d - d.yzx;
+  precise rvec3 tau = mix(rvec3(len), gap / closing, greaterThan(abs(closing), rvec3(1e-12)));
+  tau = mix(min(tau, rvec3(len)), rvec3(len), lessThan(tau, rvec3(SHORTEST_PIECE)));
+  real low = min(tau.x, min(tau.y, tau.z));
+  real high = max(tau.x, max(tau.y, tau.z));
+  real middle = max(min(tau.x, tau.y), min(max(tau.x, tau.y), tau.z));
+  return rvec3(low, middle, high);
 }
 
 // The tetrahedron of u's order: the polynomial's 32 monomial coefficients, in the macros' local variables.
@@ -104,24 +105,24 @@ vec3 spline_cuts(vec3 start, vec3 d, float len) {
   BCC7_MONOMIALS
 
 // Bernstein coefficients (SPLINE_SCALE times, less `offset`) along a..a+d, which lies in the tetrahedron of `order`.
-void spline_restrict(SplineCell cell, AxisOrder order, vec3 a, vec3 d, float offset, out float b[SPLINE_DEGREE + 1]) {
+void spline_restrict(SplineCell cell, AxisOrder order, rvec3 a, rvec3 d, real offset, out real b[SPLINE_DEGREE + 1]) {
   SPLINE_POLYNOMIAL(cell, order)
   c000 -= offset;
-  vec3 p = in_order(order, a);
-  vec3 q = in_order(order, d);
+  rvec3 p = in_order(order, a);
+  rvec3 q = in_order(order, d);
   BCC7_RESTRICT(b[0], b[1], b[2], b[3], b[4], p.x, p.y, p.z, q.x, q.y, q.z)
 }
 
-#define SPLINE_GRADIENT(w) vec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
+#define SPLINE_GRADIENT(w) rvec3(BCC7_DX(w.x, w.y, w.z), BCC7_DY(w.x, w.y, w.z), BCC7_DZ(w.x, w.y, w.z))
 
 #if defined(MARCH) || defined(NORMAL_CENTRAL) || defined(VOLUME)
 // SPLINE_SCALE times the value at u, less `offset`.
-float spline_value(SplineCell cell, vec3 u, float offset) {
+real spline_value(SplineCell cell, rvec3 u, real offset) {
   AxisOrder order = axis_order(u);
   SPLINE_POLYNOMIAL(cell, order)
   c000 -= offset;
-  vec3 w = in_order(order, u);
-  precise float f = BCC7_VALUE(w.x, w.y, w.z);
+  rvec3 w = in_order(order, u);
+  precise real f = BCC7_VALUE(w.x, w.y, w.z);
   return f;
 }
 
@@ -130,13 +131,13 @@ float spline_value(SplineCell cell, vec3 u, float offset) {
 
 #ifdef VOLUME
 // SPLINE_SCALE times the value at u, less `offset`, and the gradient of lattice coordinates.
-void spline_jet(SplineCell cell, vec3 u, float offset, out float value, out vec3 gradient) {
+void spline_jet(SplineCell cell, rvec3 u, real offset, out real value, out rvec3 gradient) {
   AxisOrder order = axis_order(u);
   SPLINE_POLYNOMIAL(cell, order)
   c000 -= offset;
-  vec3 w = in_order(order, u);
-  precise float f = BCC7_VALUE(w.x, w.y, w.z);
-  precise vec3 g = SPLINE_GRADIENT(w);
+  rvec3 w = in_order(order, u);
+  precise real f = BCC7_VALUE(w.x, w.y, w.z);
+  precise rvec3 g = SPLINE_GRADIENT(w);
   value = f;
   gradient = cell.sign * out_of_order(order, g);
 }
@@ -144,13 +145,13 @@ void spline_jet(SplineCell cell, vec3 u, float offset, out float value, out vec3
 
 // A gradient of any length at u, in lattice coordinates, after one Newton step `t` along d (lattice coordinates)
 // towards the value 0 of the polynomial of `order` less `offset`. A step longer than `longest` is not made.
-void spline_refine(SplineCell cell, AxisOrder order, vec3 u, vec3 d, float offset, float longest, out float t, out vec3 gradient) {
+void spline_refine(SplineCell cell, AxisOrder order, rvec3 u, rvec3 d, real offset, real longest, out real t, out rvec3 gradient) {
   SPLINE_POLYNOMIAL(cell, order)
   c000 -= offset;
-  vec3 w = in_order(order, u);
-  vec3 along = in_order(order, cell.sign * d);
-  precise float f = BCC7_VALUE(w.x, w.y, w.z);
-  vec3 g = SPLINE_GRADIENT(w);
+  rvec3 w = in_order(order, u);
+  rvec3 along = in_order(order, cell.sign * d);
+  precise real f = BCC7_VALUE(w.x, w.y, w.z);
+  rvec3 g = SPLINE_GRADIENT(w);
   t = -f / dot(g, along);
   t = abs(t) <= longest ? t : 0.0;
   w += t * along;

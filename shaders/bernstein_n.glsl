@@ -1,66 +1,66 @@
 // Polynomials of any degree n = SPLINE_DEGREE in Bernstein form on [0,1].
 const int N = SPLINE_DEGREE;
 
-float least_of(float b[N + 1]) {
-  float least = b[0];
+real least_of(real b[N + 1]) {
+  real least = b[0];
   for (int i = 1; i <= N; ++i) least = min(least, b[i]);
   return least;
 }
 // s (b - c).
-float[N + 1] scaled_differences(float b[N + 1], float c, float s) {
+real[N + 1] scaled_differences(real b[N + 1], real c, real s) {
   for (int i = 0; i <= N; ++i) b[i] = s * (b[i] - c);
   return b;
 }
 
 // Where the steepest line from the first control point, which is positive, down to another one reaches 0, or 1. All control points lie
 // on or above that line, and with them the polynomial.
-float steepest_reaches_zero(float b[N + 1]) {
-  float slope = 0.0;
-  for (int i = 1; i <= N; ++i) slope = min(slope, (b[i] - b[0]) * (float(N) / float(i)));
+real steepest_reaches_zero(real b[N + 1]) {
+  real slope = 0.0;
+  for (int i = 1; i <= N; ++i) slope = min(slope, (b[i] - b[0]) * (real(N) / real(i)));
   return slope < -b[0] ? -b[0] / slope : 1.0;
 }
 
 // The control points on [x,1] of those on [0,1]: de Casteljau. Inner loops run over all of them, so that every index is a constant once
 // unrolled.
-void keep_end(inout float b[N + 1], float x) {
-  float y = 1.0 - x;
+void keep_end(inout real b[N + 1], real x) {
+  real y = 1.0 - x;
   for (int n = N; n > 0; --n)
     for (int i = 0; i < N; ++i) b[i] = i < n ? y * b[i] + x * b[i + 1] : b[i];
 }
 // The control points on [0,x] of those on [0,1].
-void keep_begin(inout float b[N + 1], float x) {
-  float y = 1.0 - x;
+void keep_begin(inout real b[N + 1], real x) {
+  real y = 1.0 - x;
   for (int n = N; n > 0; --n)
     for (int i = N; i > 0; --i) b[i] = i > N - n ? y * b[i - 1] + x * b[i] : b[i];
 }
 
 // The root of a polynomial that changes sign once, from positive at 0: bracketed Newton. With B_i = C(n,i) b_i the value is
 // sum B_i x^i (1-x)^(n-i), by Horner's rule in 1-x.
-float only_root(float b[N + 1]) {
-  float scaled[N + 1];
-  float binomial = 1.0;
+real only_root(real b[N + 1]) {
+  real scaled[N + 1];
+  real binomial = 1.0;
   for (int i = 0; i <= N; ++i) {
     scaled[i] = binomial * b[i];
-    binomial *= float(N - i) / float(i + 1);
+    binomial *= real(N - i) / real(i + 1);
   }
-  float low = 0.0;
-  float high = 1.0;
-  float x = b[0] / (b[0] - b[N]);
+  real low = 0.0;
+  real high = 1.0;
+  real x = b[0] / (b[0] - b[N]);
   bool converged = false;
-  for (int k = 0; k < 24 && !converged; ++k) {
-    float y = 1.0 - x;
-    float power = 1.0;
-    float f = scaled[0];
-    float slope = 0.0;
+  for (int k = 0; k < BY_PRECISION(24, 60) && !converged; ++k) {
+    real y = 1.0 - x;
+    real power = 1.0;
+    real f = scaled[0];
+    real slope = 0.0;
     for (int i = 1; i <= N; ++i) {
-      slope = slope * y - f + float(i) * scaled[i] * power;
+      slope = slope * y - f + real(i) * scaled[i] * power;
       power *= x;
       f = f * y + scaled[i] * power;
     }
     low = f > 0.0 ? x : low;
     high = f > 0.0 ? high : x;
-    float next = x - f / slope;
-    converged = abs(next - x) < 1e-6;
+    real next = x - f / slope;
+    converged = abs(next - x) < BY_PRECISION(1e-6, 1e-10lf);
     next = converged ? clamp(next, 0.0, 1.0) : next;
     x = (next >= low && next <= high) || converged ? next : 0.5 * (low + high);
   }
@@ -73,16 +73,16 @@ float only_root(float b[N + 1]) {
 // to the next stretch, twice as long. More: the root, if any, is not before the steepest line reaches 0; look at half the length
 // from there. Clipping after T. W. Sederberg, T. Nishita, Curve intersection using Bezier clipping, 1990,
 // DOI 10.1016/0010-4485(90)90039-F, who clip to the whole hull: of many control points that costs more than it saves.
-float first_root(float b[N + 1]) {
-  float from = 0.0;
-  float stretch = 1.0;
-  float root = -1.0;
+real first_root(real b[N + 1]) {
+  real from = 0.0;
+  real stretch = 1.0;
+  real root = -1.0;
   bool looking = true;
   bool single = false;
-  float c[N + 1] = b;
-  for (int k = 0; k < 64 && looking; ++k) {
+  real c[N + 1] = b;
+  for (int k = 0; k < BY_PRECISION(64, 160) && looking; ++k) {
     // Control points on [from, to].
-    float to = min(from + stretch, 1.0);
+    real to = min(from + stretch, 1.0);
     c = b;
     keep_end(c, from);
     keep_begin(c, min((to - from) / (1.0 - from), 1.0));
@@ -93,10 +93,10 @@ float first_root(float b[N + 1]) {
     single = !reached && changes == 1;
     bool none = !reached && changes == 0;
     // Undecided at the shortest stretch: a tangency within rounding, or a root that `from` has reached.
-    bool undecided = !reached && changes > 1 && stretch < 1e-7;
+    bool undecided = !reached && changes > 1 && stretch < BY_PRECISION(1e-7, 1e-15lf);
     root = reached || undecided ? from : root;
     looking = !(reached || single || undecided || (none && to >= 1.0));
-    float clip = steepest_reaches_zero(c);
+    real clip = steepest_reaches_zero(c);
     from = looking ? (none ? to : from + (to - from) * clip) : from;
     stretch = looking ? (none ? 2.0 * stretch : 0.5 * stretch) : stretch;
     looking = looking && from < 1.0;

@@ -3,29 +3,29 @@
 
 // A cell and where its samples are.
 struct SplineCell {
-  vec3 even;   // its lowest corner relative to the domain's centre
-  vec3 sign;   // +1: coordinates go the way of the lattice's
+  rvec3 even;  // its lowest corner relative to the domain's centre
+  rvec3 sign;  // +1: coordinates go the way of the lattice's
   int lowest;  // number of that corner's coefficient
 };
 
-SplineCell spline_cell(ivec3 cell, vec3 centre) {
+SplineCell spline_cell(ivec3 cell, rvec3 centre) {
   SplineCell c;
-  c.even = vec3(cell) - centre;
-  c.sign = vec3(1.0);
+  c.even = rvec3(cell) - centre;
+  c.sign = rvec3(1.0);
   c.lowest = coefficient_origin(cell) + cell.x + cell.y * parameters.strides.x + cell.z * parameters.strides.y;
   return c;
 }
 
 // u of the point o + t d, clamped into the cell.
-vec3 cell_point(SplineCell c, vec3 o, vec3 d, float t) {
-  precise vec3 u = (o - c.even) + t * d;
-  return clamp(u, vec3(0.0), vec3(1.0));
+rvec3 cell_point(SplineCell c, rvec3 o, rvec3 d, real t) {
+  precise rvec3 u = (o - c.even) + t * d;
+  return clamp(u, rvec3(0.0), rvec3(1.0));
 }
 
 // The piece: there is one.
 struct AxisOrder {
   uint code;
 };
-AxisOrder axis_order(vec3 u) { return AxisOrder(0u); }
+AxisOrder axis_order(rvec3 u) { return AxisOrder(0u); }
 uint order_code(AxisOrder r) { return 0u; }
 AxisOrder coded_order(uint code) { return AxisOrder(0u); }

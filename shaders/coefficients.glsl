@@ -1,53 +1,60 @@
 // The spline's coefficients by their number, from one texel buffer or, where the device limits its elements, several
-// (COEFFICIENT_BUFFERS of 2^COEFFICIENT_SHIFT elements each).
-layout(binding = 1) uniform samplerBuffer coefficients0;
+// (COEFFICIENT_BUFFERS of 2^COEFFICIENT_SHIFT elements each). A double is an element of two words.
+#ifdef DOUBLE
+#define COEFFICIENTS usamplerBuffer
+#define FETCH_COEFFICIENT(buffer, element) packDouble2x32(texelFetch(buffer, element).rg)
+#else
+#define COEFFICIENTS samplerBuffer
+#define FETCH_COEFFICIENT(buffer, element) texelFetch(buffer, element).r
+#endif
+layout(binding = 1) uniform COEFFICIENTS coefficients0;
 #if COEFFICIENT_BUFFERS > 1
-layout(binding = 11) uniform samplerBuffer coefficients1;
+layout(binding = 11) uniform COEFFICIENTS coefficients1;
 #endif
 #if COEFFICIENT_BUFFERS > 2
-layout(binding = 12) uniform samplerBuffer coefficients2;
+layout(binding = 12) uniform COEFFICIENTS coefficients2;
 #endif
 #if COEFFICIENT_BUFFERS > 3
-layout(binding = 13) uniform samplerBuffer coefficients3;
+layout(binding = 13) uniform COEFFICIENTS coefficients3;
 #endif
 #if COEFFICIENT_BUFFERS > 4
-layout(binding = 14) uniform samplerBuffer coefficients4;
+layout(binding = 14) uniform COEFFICIENTS coefficients4;
 #endif
 #if COEFFICIENT_BUFFERS > 5
-layout(binding = 15) uniform samplerBuffer coefficients5;
+layout(binding = 15) uniform COEFFICIENTS coefficients5;
 #endif
 #if COEFFICIENT_BUFFERS > 6
-layout(binding = 16) uniform samplerBuffer coefficients6;
+layout(binding = 16) uniform COEFFICIENTS coefficients6;
 #endif
 #if COEFFICIENT_BUFFERS > 7
-layout(binding = 17) uniform samplerBuffer coefficients7;
+layout(binding = 17) uniform COEFFICIENTS coefficients7;
 #endif
 
-float coefficient(int number) {
+real coefficient(int number) {
 #if COEFFICIENT_BUFFERS == 1
-  return texelFetch(coefficients0, number).r;
+  return FETCH_COEFFICIENT(coefficients0, number);
 #else
   int buffer_number = number >> COEFFICIENT_SHIFT;
   int element = number & ((1 << COEFFICIENT_SHIFT) - 1);
-  float c = texelFetch(coefficients0, element).r;
-  c = buffer_number == 1 ? texelFetch(coefficients1, element).r : c;
+  real c = FETCH_COEFFICIENT(coefficients0, element);
+  c = buffer_number == 1 ? FETCH_COEFFICIENT(coefficients1, element) : c;
 #if COEFFICIENT_BUFFERS > 2
-  c = buffer_number == 2 ? texelFetch(coefficients2, element).r : c;
+  c = buffer_number == 2 ? FETCH_COEFFICIENT(coefficients2, element) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 3
-  c = buffer_number == 3 ? texelFetch(coefficients3, element).r : c;
+  c = buffer_number == 3 ? FETCH_COEFFICIENT(coefficients3, element) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 4
-  c = buffer_number == 4 ? texelFetch(coefficients4, element).r : c;
+  c = buffer_number == 4 ? FETCH_COEFFICIENT(coefficients4, element) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 5
-  c = buffer_number == 5 ? texelFetch(coefficients5, element).r : c;
+  c = buffer_number == 5 ? FETCH_COEFFICIENT(coefficients5, element) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 6
-  c = buffer_number == 6 ? texelFetch(coefficients6, element).r : c;
+  c = buffer_number == 6 ? FETCH_COEFFICIENT(coefficients6, element) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 7
-  c = buffer_number == 7 ? texelFetch(coefficients7, element).r : c;
+  c = buffer_number == 7 ? FETCH_COEFFICIENT(coefficients7, element) : c;
 #endif
   return c;
 #endif

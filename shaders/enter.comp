@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "walk.glsl"
@@ -17,9 +18,9 @@ void main() {
   Walk walk = begin_walk(ray, ray.begin, ray.begin);
   bool found = find_cell(ray, walk, inside && ray.begin < ray.end, 0u);
   append_ray(found, PendingRay(pixel, walk.t, walk_until(walk)));
-  if (inside && !found) write_pixel(pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));
+  if (inside && !found) write_pixel(pixel, rvec4(parameters.background.rgb, 0.0), rvec4(0.0, 0.0, 0.0, NO_HIT));
 #ifdef COST
   // The next pass looks at the cell found again.
-  if (inside) write_cost(pixel, vec3(0.0, float(walk.steps - (found ? 1u : 0u)), float(walk.intervals)));
+  if (inside) write_cost(pixel, rvec3(0.0, real(walk.steps - (found ? 1u : 0u)), real(walk.intervals)));
 #endif
 }

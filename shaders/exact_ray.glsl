@@ -1,4 +1,35 @@
-// The ray of a pixel in two floats each: what makes a hit exact that single floats have found.
+// The ray of a pixel in two floats each: what makes a hit exact that single floats have found. In doubles, the ray itself.
+#ifdef DOUBLE
+struct ExactRay {
+  rvec3 o, d;       // as Ray has them, before it stepped off planes
+  real depth;       // world distance from the eye at t = 0
+  real world_step;  // world distance per t
+};
+
+ExactRay make_exact_ray(ivec2 pixel) {
+  real x = real(2 * pixel.x + 1 - parameters.picture.x) / real(parameters.picture.x);
+  real y = real(parameters.picture.y - 2 * pixel.y - 1) / real(parameters.picture.y);
+  rvec3 direction = wide(parameters.forward_hi.xyz, parameters.forward_lo.xyz) +
+                    (x * wide(parameters.right_hi.xyz, parameters.right_lo.xyz) + y * wide(parameters.up_hi.xyz, parameters.up_lo.xyz));
+  // World length of the direction: forward, right and up are orthogonal there.
+  real tx = x * wide(parameters.tangent.x, parameters.tangent.y);
+  real ty = y * wide(parameters.tangent.z, parameters.tangent.w);
+  real world = sqrt(1.0 + (tx * tx + ty * ty));
+  real lattice = length(direction);
+  ExactRay ray;
+  ray.o = wide(parameters.base_hi.xyz, parameters.base_lo.xyz) +
+          (x * wide(parameters.base_right_hi.xyz, parameters.base_right_lo.xyz) + y * wide(parameters.base_up_hi.xyz, parameters.base_up_lo.xyz));
+  ray.d = direction / lattice;
+  ray.depth = wide(parameters.base_hi.w, parameters.base_lo.w) * world;
+  ray.world_step = world / lattice;
+  return ray;
+}
+
+// u of the point at t, in the cell.
+rvec3 exact_cell_point(ExactRay ray, SplineCell cell, real t) { return cell.sign * ((ray.o + t * ray.d) - cell.even); }
+
+real world_depth(ExactRay ray, real t, real t_lo) { return ray.depth + (t + t_lo) * ray.world_step; }
+#else
 #include "twofloat.glsl"
 
 struct ExactRay {
@@ -41,3 +72,4 @@ vec3 exact_cell_point(ExactRay ray, SplineCell cell, float t) {
 }
 
 float world_depth(ExactRay ray, float t, float t_lo) { return add(ray.depth, multiply(two_sum(t, t_lo), ray.world_step)).hi; }
+#endif

@@ -14,8 +14,8 @@
 
 // So close behind a hit (lattice coordinates) a value within rounding of the isovalue, HIT_ROUNDING of what went into it, is taken to be
 // on the level's side: the next piece knows the crossing at a slightly different place.
-const float HIT_BAND = 0.02;
-const float HIT_ROUNDING = 1e-5;
+const real HIT_BAND = BY_PRECISION(0.02, 1e-3lf);
+const real HIT_ROUNDING = BY_PRECISION(1e-5, 2e-14lf);
 
 struct Caster {
   Walk walk;
@@ -23,9 +23,9 @@ struct Caster {
   bool live;         // the ray has not ended
   bool need_cell;    // the current cell is done
   ivec3 cell;
-  float entry, len;  // of the current cell: where the ray enters, how long it stays
-  float done;        // how far of it has been looked at
-  float last_hit;    // where the ray last crossed a surface; before everything until then
+  real entry, len;   // of the current cell: where the ray enters, how long it stays
+  real done;         // how far of it has been looked at
+  real last_hit;     // where the ray last crossed a surface; before everything until then
 #ifdef BRICKS
   bool parked;       // the current cell waits for its brick
 #endif
@@ -58,12 +58,12 @@ Caster begin_caster(Ray ray, Walk walk) {
 // find_cell.
 void enter_cell(Ray ray, inout Caster caster, bool wanted, uint break_at) {
 #ifdef VOIDS
-  float before = caster.walk.t;
+  real before = caster.walk.t;
 #endif
   bool found = find_cell(ray, caster.walk, wanted, break_at);
   ivec3 cell = caster.walk.cell;
-  float leave = exit_time(ray, cell, 1);
-  float entry = caster.walk.t;
+  real leave = exit_time(ray, cell, 1);
+  real entry = caster.walk.t;
 #ifdef VOIDS
   // What was passed over may have held void cells; where it did not, the first value behind it says the same again.
   caster.level = entry != before ? LEVEL_UNKNOWN : caster.level;
@@ -80,26 +80,26 @@ void enter_cell(Ray ray, inout Caster caster, bool wanted, uint break_at) {
 
 #if SPLINE_CUTS == 0
 // A cell is one piece.
-float piece_end(Ray ray, SplineCell cell, vec3 from, float len, float done) { return len; }
+real piece_end(Ray ray, SplineCell cell, rvec3 from, real len, real done) { return len; }
 #else
 // Where the piece that begins at `done` ends.
-float piece_end(Ray ray, SplineCell cell, vec3 from, float len, float done) {
-  vec3 cuts = spline_cuts(from, cell.sign * ray.d, len);
-  float after = done + SHORTEST_PIECE;
-  float end = cuts.z > after ? cuts.z : len;
+real piece_end(Ray ray, SplineCell cell, rvec3 from, real len, real done) {
+  rvec3 cuts = spline_cuts(from, cell.sign * ray.d, len);
+  real after = done + SHORTEST_PIECE;
+  real end = cuts.z > after ? cuts.z : len;
   end = cuts.y > after ? cuts.y : end;
   return cuts.x > after ? cuts.x : end;
 }
 #endif
 
 // A piece's Bernstein coefficients as distances to an isovalue: positive on the ray's side of it.
-float[SPLINE_DEGREE + 1] distances(float b[SPLINE_DEGREE + 1], float isovalue, bool upwards, bool crossed) {
-  float h[SPLINE_DEGREE + 1] = scaled_differences(b, isovalue, upwards ? -1.0 : 1.0);
+real[SPLINE_DEGREE + 1] distances(real b[SPLINE_DEGREE + 1], real isovalue, bool upwards, bool crossed) {
+  real h[SPLINE_DEGREE + 1] = scaled_differences(b, isovalue, upwards ? -1.0 : 1.0);
 #ifdef COMPOSITE
-  float size = abs(b[0]);
+  real size = abs(b[0]);
   for (int i = 1; i <= SPLINE_DEGREE; ++i) size = max(size, abs(b[i]));
   size += abs(scaled_isovalue(0));
-  float rounding = crossed ? HIT_ROUNDING * size : 0.0;
+  real rounding = crossed ? HIT_ROUNDING * size : 0.0;
   for (int i = 0; i <= SPLINE_DEGREE; ++i) h[i] += rounding;
   // The root at 0 is known; behind it the polynomial leaves 0 as h[1] says.
   h[0] = crossed ? max(h[0], max(1e-3 * h[1], 1e-30)) : h[0];
@@ -107,26 +107,26 @@ float[SPLINE_DEGREE + 1] distances(float b[SPLINE_DEGREE + 1], float isovalue, b
   return h;
 }
 // The isovalue itself belongs to the side above it.
-bool may_cross(float h[SPLINE_DEGREE + 1], bool upwards) {
-  float least = least_of(h);
+bool may_cross(real h[SPLINE_DEGREE + 1], bool upwards) {
+  real least = least_of(h);
   return least < 0.0 || (upwards && least == 0.0);
 }
-float root_of(float h[SPLINE_DEGREE + 1]) { return h[0] <= 0.0 ? 0.0 : first_root(h); }
+real root_of(real h[SPLINE_DEGREE + 1]) { return h[0] <= 0.0 ? 0.0 : first_root(h); }
 
 #if ISOVALUES == 1
 #define EXACT_OFFSET scaled_isovalue(0)
 
-bool piece_may_cross(int level, float b[SPLINE_DEGREE + 1], bool crossed) {
+bool piece_may_cross(int level, real b[SPLINE_DEGREE + 1], bool crossed) {
   return may_cross(distances(b, 0.0, level == 0, crossed), level == 0);
 }
-float piece_root(int level, float b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
+real piece_root(int level, real b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
   surface = 0;
   return root_of(distances(b, 0.0, level == 0, crossed));
 }
 #else
 #define EXACT_OFFSET 0.0
 
-bool piece_may_cross(int level, float b[SPLINE_DEGREE + 1], bool crossed) {
+bool piece_may_cross(int level, real b[SPLINE_DEGREE + 1], bool crossed) {
   int above = min(level, parameters.cells.w - 1);
   int below = max(level - 1, 0);
   bool up = level < parameters.cells.w && may_cross(distances(b, scaled_isovalue(above), true, crossed), true);
@@ -134,13 +134,13 @@ bool piece_may_cross(int level, float b[SPLINE_DEGREE + 1], bool crossed) {
   return up || down;
 }
 // The earlier of the crossings of the next isovalue above and of the one below.
-float piece_root(int level, float b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
+real piece_root(int level, real b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
   int above = min(level, parameters.cells.w - 1);
   int below = max(level - 1, 0);
-  float up[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(above), true, crossed);
-  float down[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(below), false, crossed);
-  float r_up = level < parameters.cells.w && may_cross(up, true) ? root_of(up) : -1.0;
-  float r_down = level > 0 && may_cross(down, false) ? root_of(down) : -1.0;
+  real up[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(above), true, crossed);
+  real down[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(below), false, crossed);
+  real r_up = level < parameters.cells.w && may_cross(up, true) ? root_of(up) : -1.0;
+  real r_down = level > 0 && may_cross(down, false) ? root_of(down) : -1.0;
   bool take_up = r_up >= 0.0 && (r_down < 0.0 || r_up <= r_down);
   surface = take_up ? above : below;
   return take_up ? r_up : r_down;
@@ -151,10 +151,10 @@ float piece_root(int level, float b[SPLINE_DEGREE + 1], bool crossed, out int su
 // call again). `others`: whether there is work for lanes that do not seek.
 bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root root) {
   bool seeking = wanted && caster.live;
-  float b[SPLINE_DEGREE + 1];
+  real b[SPLINE_DEGREE + 1];
   for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = 1.0;
-  float start = 0.0;
-  float width = 0.0;
+  real start = 0.0;
+  real width = 0.0;
   bool crossed = false;
   bool found = false;
   uint seekers = subgroupBallotBitCount(subgroupBallot(seeking));
@@ -178,12 +178,12 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     seeking = seeking && !caster.parked;
 #endif
     SplineCell cell = spline_cell(caster.cell, ray.centre);
-    vec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
-    vec3 along = cell.sign * ray.d;
-    float end = piece_end(ray, cell, from, caster.len, caster.done);
-    float span = end - caster.done;
+    rvec3 from = cell_point(cell, ray.o, ray.d, caster.entry);
+    rvec3 along = cell.sign * ray.d;
+    real end = piece_end(ray, cell, from, caster.len, caster.done);
+    real span = end - caster.done;
     AxisOrder order = axis_order(from + (caster.done + 0.5 * span) * along);
-    float piece[SPLINE_DEGREE + 1];
+    real piece[SPLINE_DEGREE + 1];
     spline_restrict(cell, order, from + caster.done * along, span * along, EXACT_OFFSET, piece);
 #ifdef COST
     caster.evaluations += looking ? 1u : 0u;
@@ -198,14 +198,14 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     width = looking ? span : width;
     crossed = looking ? behind_hit : crossed;
     caster.done = looking ? end : caster.done;
-    caster.need_cell = looking ? !(caster.len > end + 1e-6) : caster.need_cell;
+    caster.need_cell = looking ? !(caster.len > end + BY_PRECISION(1e-6, 1e-14lf)) : caster.need_cell;
     caster.live = caster.live && (!looking || !caster.need_cell || caster.walk.t < ray.end);
     seeking = seeking && !found && caster.live;
   } while (keep_seeking(seeking, found, others, seekers));
 
-  float r = piece_root(caster.level, b, crossed, root.surface);
+  real r = piece_root(caster.level, b, crossed, root.surface);
   bool hit = found && r >= 0.0;
-  float reached = hit ? start + r * width : 0.0;
+  real reached = hit ? start + r * width : 0.0;
 
   SplineCell cell = spline_cell(caster.cell, ray.centre);
   root.cell = caster.cell;

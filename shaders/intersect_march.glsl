@@ -8,11 +8,11 @@ struct Caster {
   Walk walk;
   int level;         // of the ray so far; LEVEL_UNKNOWN until a value told
   bool live;
-  float leave;     // where the current interval ends
-  float k;         // number of the next sample
+  real leave;      // where the current interval ends
+  real k;          // number of the next sample
   bool have;       // a sample came before it:
-  float previous;  // where,
-  float before;    // and its value less the offset
+  real previous;   // where,
+  real before;     // and its value less the offset
   bool need_interval;
 #ifdef COST
   uint evaluations;
@@ -36,8 +36,8 @@ Caster begin_caster(Ray ray, Walk walk) {
   return caster;
 }
 
-float sample_time(Ray ray, float k) {
-  precise float t = ray.begin + k * parameters.march.x;
+real sample_time(Ray ray, real k) {
+  precise real t = ray.begin + k * wide(parameters.march.x, parameters.march.z);
   return min(t, ray.end);
 }
 
@@ -45,15 +45,15 @@ float sample_time(Ray ray, float k) {
 void enter_interval(Ray ray, inout Caster caster, bool wanted) {
   bool found = find_cell(ray, caster.walk, wanted, 0u);
 #ifdef CELL_TEST
-  float leave = min(exit_time(ray, caster.walk.cell, 1), ray.end);
+  real leave = min(exit_time(ray, caster.walk.cell, 1), ray.end);
 #elif defined(SKIP)
-  float leave = min(caster.walk.until, ray.end);
+  real leave = min(caster.walk.until, ray.end);
 #else
-  float leave = ray.end;
+  real leave = ray.end;
 #endif
   caster.live = caster.live && (!wanted || found);
   // From the last sample before the interval, unless it has been taken.
-  float first = floor((caster.walk.t - ray.begin) / parameters.march.x);
+  real first = floor((caster.walk.t - ray.begin) / wide(parameters.march.x, parameters.march.z));
 #ifdef VOIDS
   caster.have = caster.have && !(wanted && first > caster.k);  // void cells may have been passed over
 #endif
@@ -70,20 +70,20 @@ void enter_interval(Ray ray, inout Caster caster, bool wanted) {
 #define MARCH_OFFSET 0.0
 #endif
 
-float sample_value(Ray ray, float t, float offset) { return spline_value_at(ray.o + t * ray.d, ray.centre, offset); }
+real sample_value(Ray ray, real t, real offset) { return spline_value_at(ray.o + t * ray.d, ray.centre, offset); }
 
 // The root between a (value fa) and b (value fb, on the other side).
-float refine_root(Ray ray, float a, float fa, float b, float fb, float isovalue, bool wanted, inout uint evaluations) {
+real refine_root(Ray ray, real a, real fa, real b, real fb, real isovalue, bool wanted, inout uint evaluations) {
   bool refining = wanted && fb != 0.0;
-  for (int i = 0; i < 12 && subgroupAny(refining); ++i) {
-    float x = clamp(b - fb * (b - a) / (fb - fa), min(a, b), max(a, b));
-    float fx = sample_value(ray, x, isovalue);
+  for (int i = 0; i < BY_PRECISION(12, 40) && subgroupAny(refining); ++i) {
+    real x = clamp(b - fb * (b - a) / (fb - fa), min(a, b), max(a, b));
+    real fx = sample_value(ray, x, isovalue);
     evaluations += refining ? 1u : 0u;
     bool other_side = (fx < 0.0) != (fb < 0.0);
-    float kept = other_side ? fb : 0.5 * fa;
+    real kept = other_side ? fb : 0.5 * fa;
     a = refining && other_side ? b : a;
     fa = refining ? kept : fa;
-    bool close = abs(x - b) < 1e-5;
+    bool close = abs(x - b) < BY_PRECISION(1e-5, 1e-12lf);
     b = refining ? x : b;
     fb = refining ? fx : fb;
     refining = refining && !close && fx != 0.0;
@@ -94,14 +94,14 @@ float refine_root(Ray ray, float a, float fa, float b, float fb, float isovalue,
 bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root root) {
   bool hit = false;
   bool seeking = wanted && caster.live;
-  float a = 0.0, fa = 0.0, b = 0.0, fb = 0.0;
+  real a = 0.0, fa = 0.0, b = 0.0, fb = 0.0;
   int surface = 0;
   uint seekers = 0u;
   do {
     enter_interval(ray, caster, seeking && caster.need_interval);
     seeking = seeking && caster.live;
-    float t = sample_time(ray, caster.k);
-    float f = sample_value(ray, t, MARCH_OFFSET);
+    real t = sample_time(ray, caster.k);
+    real f = sample_value(ray, t, MARCH_OFFSET);
 #ifdef COST
     caster.evaluations += seeking ? 1u : 0u;
 #endif
@@ -129,10 +129,10 @@ bool next_hit(Ray ray, inout Caster caster, bool wanted, bool others, out Root r
     seeking = on && caster.live;
   } while (keep_seeking(seeking, hit, others, seekers));
 
-  float isovalue = scaled_isovalue(surface);
+  real isovalue = scaled_isovalue(surface);
   uint evaluations = 0u;
-  float shift = MARCH_OFFSET - isovalue;
-  float t = refine_root(ray, a, fa + shift, b, fb + shift, isovalue, hit, evaluations);
+  real shift = MARCH_OFFSET - isovalue;
+  real t = refine_root(ray, a, fa + shift, b, fb + shift, isovalue, hit, evaluations);
 #ifdef COST
   caster.evaluations += evaluations;
 #endif

@@ -15,7 +15,7 @@ layout(std430, binding = 7) buffer Cost {
 };
 #endif
 
-const float NO_HIT = 1.0 / 0.0;
+const real NO_HIT = 1.0 / 0.0;
 
 // The pixel of this lane, row 0 at the top of the picture.
 ivec2 lane_pixel() {
@@ -27,13 +27,13 @@ ivec2 lane_pixel() {
 bool in_picture(ivec2 pixel) { return pixel.x < parameters.picture.x && pixel.y < min(parameters.picture.y, parameters.picture.z + parameters.picture.w); }
 int pixel_number(ivec2 pixel) { return (pixel.y - parameters.picture.z) * parameters.picture.x + pixel.x; }
 
-void write_pixel(ivec2 pixel, vec4 rgba, vec4 normal_and_depth) {
+void write_pixel(ivec2 pixel, rvec4 rgba, rvec4 normal_and_depth) {
   int p = pixel_number(pixel);
-  color[p] = rgba;
-  hit[p] = normal_and_depth;
+  color[p] = narrow(rgba);
+  hit[p] = narrow(normal_and_depth);
 }
 
 #ifdef COST
-vec3 read_cost(ivec2 pixel) { return cost[pixel_number(pixel)].xyz; }
-void write_cost(ivec2 pixel, vec3 counts) { cost[pixel_number(pixel)] = vec4(counts, 0.0); }
+rvec3 read_cost(ivec2 pixel) { return cost[pixel_number(pixel)].xyz; }
+void write_cost(ivec2 pixel, rvec3 counts) { cost[pixel_number(pixel)] = vec4(counts, 0.0); }
 #endif

@@ -2,6 +2,7 @@
 // The spline at points: what kernels compute of it, to be compared with the double-precision class.
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "coefficients.glsl"
 #include "spline.glsl"

@@ -3,14 +3,14 @@
 
 struct PendingRay {
   ivec2 pixel;
-  float t;      // where the ray enters its first cell that may matter
-  float until;  // how far the structure's answer reaches
+  real t;       // where the ray enters its first cell that may matter
+  real until;   // how far the structure's answer reaches
 };
 
 layout(std430, binding = 8) buffer Rays {
   uint ray_count;
   uint ray_padding[3];
-  uvec4 ray_list[];  // pixel x + 2^16 y; t, until, 0, or what became of the ray (root.glsl)
+  uvec4 ray_list[];  // pixel x + 2^16 y; t, until, 0, or what became of the ray (root.glsl). With DOUBLE two a ray: pixel, 0, t; until, 0, 0
 };
 
 // Whether a subgroup's loop goes on: as long as a lane seeks; but only as long as more lanes seek than wait where those have
@@ -34,10 +34,22 @@ void append_ray(bool have, PendingRay ray) {
   uint first = 0u;
   if (subgroupElect()) first = atomicAdd(ray_count, subgroupBallotBitCount(ballot));
   uint number = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(ballot);
+#ifdef DOUBLE
+  if (have) {
+    ray_list[2u * number] = uvec4(pack_pixel(ray.pixel), 0u, unpackDouble2x32(ray.t));
+    ray_list[2u * number + 1u] = uvec4(unpackDouble2x32(ray.until), 0u, 0u);
+  }
+#else
   if (have) ray_list[number] = uvec4(pack_pixel(ray.pixel), floatBitsToUint(ray.t), floatBitsToUint(ray.until), 0u);
+#endif
 }
 
 PendingRay pending_ray(uint number) {
+#ifdef DOUBLE
+  uvec4 r = ray_list[2u * number];
+  return PendingRay(unpack_pixel(r.x), packDouble2x32(r.zw), packDouble2x32(ray_list[2u * number + 1u].xy));
+#else
   uvec4 r = ray_list[number];
   return PendingRay(unpack_pixel(r.x), uintBitsToFloat(r.y), uintBitsToFloat(r.z));
+#endif
 }

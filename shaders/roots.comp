@@ -8,6 +8,7 @@ layout(std430, binding = 0) readonly buffer Polynomials {
 layout(std430, binding = 1) writeonly buffer Roots {
   float root[];  // in [0,1], or negative where there is none
 };
+#include "real.glsl"
 #include "bernstein.glsl"
 
 void main() {

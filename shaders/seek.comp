@@ -6,6 +6,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "coefficients.glsl"
@@ -43,10 +44,16 @@ void main() {
     bool hit = next_hit(ray, caster, busy, next < last, root);
     bool ended = busy && (hit || !caster.live);
     if (ended) {
+#ifdef DOUBLE
+      uvec4 packed = pack_root(hit, root);
+      ray_list[2u * number] = uvec4(pack_pixel(pending.pixel), 0u, packed.xy);
+      ray_list[2u * number + 1u] = uvec4(packed.zw, 0u, 0u);
+#else
       ray_list[number] = uvec4(pack_pixel(pending.pixel), pack_root(hit, root));
+#endif
 #ifdef COST
-      vec3 before = read_cost(pending.pixel);
-      write_cost(pending.pixel, before + vec3(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals)));
+      rvec3 before = read_cost(pending.pixel);
+      write_cost(pending.pixel, before + rvec3(real(caster.evaluations), real(caster.walk.steps), real(caster.walk.intervals)));
 #endif
     }
     busy = busy && !ended;

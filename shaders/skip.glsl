@@ -2,7 +2,7 @@
 //
 //   SkipState                what its walk carries from step to step and from answer to answer
 //   SkipState begin_skip()   its value before the first step
-//   bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until)
+//   bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until)
 //
 // One call is one step of the structure's walk. `asked` says whether this lane wants it: where not, the state stays as it is and the result
 // is false. The ray is at its parameter t, in `cell`. True: the structure has its answer. The ray certainly meets no surface from t

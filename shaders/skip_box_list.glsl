@@ -7,7 +7,7 @@ struct SkipState {
 };
 SkipState begin_skip() { return SkipState(0); }
 
-bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
   bool ended = state.next >= parameters.structure.x;
   Box box = fetch_box(ray, state.next);
   bool met = !ended && max(box.entry, t) < box.exit;

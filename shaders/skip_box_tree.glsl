@@ -9,19 +9,19 @@ int box_stack[BOX_STACK];
 struct SkipState {
   int pair;    // children to look at next: the number of the first; -1 before a search
   int height;  // of the stack
-  float entry, exit;  // of the nearest leaf so far
+  real entry, exit;   // of the nearest leaf so far
 };
 SkipState begin_skip() { return SkipState(-1, 0, 0.0, 0.0); }
 
 // Whether the ray is in the box somewhere in [t, best).
-bool worth(Box box, float t, float best) { return max(box.entry, t) < box.exit && box.entry < best; }
+bool worth(Box box, real t, real best) { return max(box.entry, t) < box.exit && box.entry < best; }
 
-bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
   bool fresh = state.pair < 0;
   int pair = fresh ? 0 : state.pair;
   int height = fresh ? 0 : state.height;
-  float best = fresh ? ray.end : state.entry;
-  float exit = fresh ? ray.end : state.exit;
+  real best = fresh ? ray.end : state.entry;
+  real exit = fresh ? ray.end : state.exit;
 
   Box a = fetch_box(ray, pair);
   Box b = fetch_box(ray, pair + 1);

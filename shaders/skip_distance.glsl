@@ -3,7 +3,7 @@
 
 layout(binding = 3) uniform usamplerBuffer blockDistance;
 
-bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
   int shift = parameters.blocks.w;
   ivec3 block = cell >> shift;
   int empty = int(texelFetch(blockDistance, block_number(block)).r);

@@ -5,7 +5,7 @@ layout(binding = 3) uniform usamplerBuffer gridLevel;
 
 const uint GRID_ACTIVE = 255u;
 
-bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
   int shift = parameters.blocks.w;
   ivec3 block = cell >> shift;
   uint level = texelFetch(gridLevel, block_number(block)).r;

@@ -25,7 +25,7 @@ bool octree_touches(uvec2 bounds) {
 
 ivec3 octree_size(int level) { return (parameters.blocks.xyz + ((1 << level) - 1)) >> level; }
 
-bool skip_step(Ray ray, ivec3 cell, float t, bool asked, inout SkipState state, out float from, out float until) {
+bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
   int shift = parameters.blocks.w + state.level;
   ivec3 node = cell >> shift;
   ivec3 size = octree_size(state.level);

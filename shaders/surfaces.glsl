@@ -4,7 +4,7 @@
 
 #ifdef COMPOSITE
 // Front to back.
-void composite(inout Seen seen, vec3 lit, float opacity, vec4 hit_here) {
+void composite(inout Seen seen, rvec3 lit, real opacity, rvec4 hit_here) {
   seen.first = seen.first.w == NO_HIT ? hit_here : seen.first;
   seen.color += seen.transmittance * opacity * lit;
   seen.transmittance *= 1.0 - opacity;
@@ -12,13 +12,13 @@ void composite(inout Seen seen, vec3 lit, float opacity, vec4 hit_here) {
 #endif
 
 // Adds a hit of surface k.
-void see(inout Seen seen, Ray ray, int k, vec3 gradient, float depth) {
-  vec3 normal = facing_normal(ray, gradient);
-  vec3 lit = headlight(isosurface[2 * k + 1].rgb, normal, ray.view);
+void see(inout Seen seen, Ray ray, int k, rvec3 gradient, real depth) {
+  rvec3 normal = facing_normal(ray, gradient);
+  rvec3 lit = headlight(isosurface[2 * k + 1].rgb, normal, ray.view);
 #ifdef COMPOSITE
-  composite(seen, lit, isosurface[2 * k].y, vec4(normal, depth));
+  composite(seen, lit, isosurface[2 * k].y, rvec4(normal, depth));
 #else
-  seen.first = vec4(normal, depth);
+  seen.first = rvec4(normal, depth);
   seen.color = lit;
   seen.transmittance = 0.0;
 #endif

@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "coefficients.glsl"
@@ -110,8 +111,8 @@ void main() {
   if (mine) {
     write_pixel(pending.pixel, over_background(seen), seen.first);
 #ifdef COST
-    vec3 before = read_cost(pending.pixel);
-    write_cost(pending.pixel, before + vec3(float(caster.evaluations), float(caster.walk.steps), float(caster.walk.intervals)));
+    rvec3 before = read_cost(pending.pixel);
+    write_cost(pending.pixel, before + rvec3(real(caster.evaluations), real(caster.walk.steps), real(caster.walk.intervals)));
 #endif
   }
 }

@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "walk.glsl"
@@ -17,11 +18,11 @@ void traverse(Ray ray, inout Walk walk, bool mine) {
   do {
     bool found = find_cell(ray, walk, seeking, 0u);
 #if defined(CELL_TEST)
-    float leave = exit_time(ray, walk.cell, 1);
+    real leave = exit_time(ray, walk.cell, 1);
 #elif defined(SKIP)
-    float leave = walk.until;
+    real leave = walk.until;
 #else
-    float leave = ray.end;
+    real leave = ray.end;
 #endif
     seeking = seeking && found;
     leave = min(leave, ray.end);
@@ -39,8 +40,8 @@ void main() {
   Walk walk = begin_walk(ray, pending.t, pending.until);
   traverse(ray, walk, mine);
   if (mine) {
-    write_pixel(pending.pixel, vec4(parameters.background.rgb, 0.0), vec4(0.0, 0.0, 0.0, NO_HIT));
-    vec3 before = read_cost(pending.pixel);
-    write_cost(pending.pixel, before + vec3(0.0, float(walk.steps), float(walk.intervals)));
+    write_pixel(pending.pixel, rvec4(parameters.background.rgb, 0.0), rvec4(0.0, 0.0, 0.0, NO_HIT));
+    rvec3 before = read_cost(pending.pixel);
+    write_cost(pending.pixel, before + rvec3(0.0, real(walk.steps), real(walk.intervals)));
   }
 }

@@ -11,14 +11,14 @@ bool is_void(ivec3 cell) {
 
 #if defined(MARCH) || defined(PRE_INTEGRATED)
 // Where `wanted`, whether a cell that the ray is in between a and b is void.
-bool void_between(Ray ray, float a, float b, bool wanted) {
+bool void_between(Ray ray, real a, real b, bool wanted) {
   bool met = false;
   bool walking = wanted;
   ivec3 cell = cell_at(ray, a);
-  float t = a;
+  real t = a;
   do {
     met = met || (walking && is_void(cell));
-    float leave = exit_time(ray, cell, 1);
+    real leave = exit_time(ray, cell, 1);
     ivec3 next = next_cell(ray, cell, leave);
     // At the domain's border a cell may be its own next one.
     walking = walking && !met && leave < b && leave > t;

@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "ray.glsl"
 #include "coefficients.glsl"
@@ -43,8 +44,8 @@ void main() {
   if (mine) {
     write_pixel(pending.pixel, over_background(seen), seen.first);
 #ifdef COST
-    vec3 before = read_cost(pending.pixel);
-    write_cost(pending.pixel, before + vec3(float(volume.evaluations), float(volume.walk.steps), float(volume.walk.intervals)));
+    rvec3 before = read_cost(pending.pixel);
+    write_cost(pending.pixel, before + rvec3(real(volume.evaluations), real(volume.walk.steps), real(volume.walk.intervals)));
 #endif
   }
 }

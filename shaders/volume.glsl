@@ -18,17 +18,17 @@
 
 struct VolumeRay {
   Walk walk;
-  float dt, inverse;     // length of a stretch, in t, and 1/dt
-  float world_per_t;
-  float depth;           // in the world, at t = 0
-  float shift;           // by which part of a stretch the first one begins before the ray
-  float k;               // the next stretch
-  float reached;         // what is before has been integrated
-  float through;         // all that is before, from where something was found, may matter
-  float known;           // the first stretch behind it: those before need not be asked for
+  real dt, inverse;      // length of a stretch, in t, and 1/dt
+  real world_per_t;
+  real depth;            // in the world, at t = 0
+  real shift;            // by which part of a stretch the first one begins before the ray
+  real k;                // the next stretch
+  real reached;          // what is before has been integrated
+  real through;          // all that is before, from where something was found, may matter
+  real known;            // the first stretch behind it: those before need not be asked for
 #ifdef PRE_INTEGRATED
   bool have;             // the value where stretch k goes on is known:
-  float front;           // its place in the table
+  real front;            // its place in the table
 #endif
 #ifdef ADAPTIVE
   int parts;             // of stretch k: 0 not known yet, else 1, 2, 4 or 8
@@ -38,8 +38,8 @@ struct VolumeRay {
   bool parked;           // the next place waits for its brick
 #endif
 #ifndef CUT_ANYWHERE
-  vec4 last;             // the ray's last stretch as if it were whole
-  float last_part;       // of it, that the ray goes through; 0 before it is known
+  rvec4 last;            // the ray's last stretch as if it were whole
+  real last_part;        // of it, that the ray goes through; 0 before it is known
 #endif
 #ifdef COST
   uint evaluations;
@@ -48,35 +48,35 @@ struct VolumeRay {
 
 #ifdef JITTER
 // M. Jarzynski, M. Olano, Hash functions for GPU rendering, Journal of Computer Graphics Techniques 9(3), 2020 (pcg3d), first component.
-float pixel_noise(ivec2 pixel) {
+real pixel_noise(ivec2 pixel) {
   uvec3 v = uvec3(pixel, floatBitsToUint(parameters.sampling.w));
   v = v * 1664525u + 1013904223u;
   v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
   v ^= v >> 16u;
   v.x += v.y * v.z;
-  return float(v.x >> 8) * (1.0 / 16777216.0);
+  return real(v.x >> 8) * (1.0 / 16777216.0);
 }
 #endif
 
-float stretch_begin(Ray ray, VolumeRay volume, float k) {
-  precise float t = ray.begin + (k - volume.shift) * volume.dt;
+real stretch_begin(Ray ray, VolumeRay volume, real k) {
+  precise real t = ray.begin + (k - volume.shift) * volume.dt;
   return t;
 }
 // The stretch that holds t, or the one before it.
-float stretch_before(Ray ray, VolumeRay volume, float t) {
-  float x = (t - ray.begin) * volume.inverse + volume.shift;
+real stretch_before(Ray ray, VolumeRay volume, real t) {
+  real x = (t - ray.begin) * volume.inverse + volume.shift;
   return max(floor(x - 1e-3 - 2e-6 * x), 0.0);
 }
 
 // What is left of stretch k before `end`.
 struct Stretch {
-  float first, last;
-  float part;  // of a whole one
+  real first, last;
+  real part;   // of a whole one
   bool cut;    // by `end`
 };
-Stretch stretch_left(Ray ray, VolumeRay volume, float end) {
-  float begin = stretch_begin(ray, volume, volume.k);
-  float next = stretch_begin(ray, volume, volume.k + 1.0);
+Stretch stretch_left(Ray ray, VolumeRay volume, real end) {
+  real begin = stretch_begin(ray, volume, volume.k);
+  real next = stretch_begin(ray, volume, volume.k + 1.0);
   Stretch s;
   s.first = max(begin, volume.reached);
   s.cut = next > end;
@@ -84,18 +84,20 @@ Stretch stretch_left(Ray ray, VolumeRay volume, float end) {
   s.part = s.cut || s.first > begin ? clamp((s.last - s.first) * volume.inverse, 0.0, 1.0) : 1.0;
   return s;
 }
-bool stretches_left(Ray ray, VolumeRay volume, float end) { return max(stretch_begin(ray, volume, volume.k), volume.reached) < end; }
+bool stretches_left(Ray ray, VolumeRay volume, real end) { return max(stretch_begin(ray, volume, volume.k), volume.reached) < end; }
 
 VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
   VolumeRay volume;
   volume.walk = walk;
-  float x = float(2 * pixel.x + 1 - parameters.picture.x) / float(parameters.picture.x);
-  float y = float(parameters.picture.y - 2 * pixel.y - 1) / float(parameters.picture.y);
-  precise float lattice = length(parameters.forward_hi.xyz + (x * parameters.right_hi.xyz + y * parameters.up_hi.xyz));
-  precise float world = length(parameters.world_forward.xyz + x * parameters.world_right.xyz + y * parameters.world_up.xyz);
+  real x = real(2 * pixel.x + 1 - parameters.picture.x) / real(parameters.picture.x);
+  real y = real(parameters.picture.y - 2 * pixel.y - 1) / real(parameters.picture.y);
+  precise real lattice = length(wide(parameters.forward_hi.xyz, parameters.forward_lo.xyz) +
+                                (x * wide(parameters.right_hi.xyz, parameters.right_lo.xyz) + y * wide(parameters.up_hi.xyz, parameters.up_lo.xyz)));
+  precise real world = length(wide(parameters.world_forward.xyz, parameters.world_forward_lo.xyz) +
+                              x * wide(parameters.world_right.xyz, parameters.world_right_lo.xyz) + y * wide(parameters.world_up.xyz, parameters.world_up_lo.xyz));
   volume.world_per_t = world / lattice;
-  volume.depth = parameters.base_hi.w * world;
-  volume.dt = parameters.sampling.x * (lattice / world);
+  volume.depth = wide(parameters.base_hi.w, parameters.base_lo.w) * world;
+  volume.dt = wide(parameters.sampling.x, parameters.sampling.y) * (lattice / world);
   volume.inverse = 1.0 / volume.dt;
 #ifdef JITTER
   volume.shift = pixel_noise(pixel);
@@ -118,7 +120,7 @@ VolumeRay begin_volume(Ray ray, ivec2 pixel, Walk walk) {
   volume.parked = false;
 #endif
 #ifndef CUT_ANYWHERE
-  volume.last = vec4(0.0);
+  volume.last = rvec4(0.0);
   volume.last_part = 0.0;
 #endif
 #ifdef COST
@@ -136,12 +138,12 @@ bool opaque(Seen seen) { return seen.transmittance <= parameters.sampling.z; }
 #endif
 
 // How many stretches are looked ahead, at least, as long as they may matter.
-const float AHEAD = 24.0;
+const real AHEAD = 24.0;
 
 // Where `wanted`, moves on to the next stretch before `end` that may have opacity, and finds how many after it may too (`known`), about AHEAD
 // of them. False where there is none left, or (some are left: call again) where the walk is broken off because no more than `break_at` lanes
 // of the subgroup still walk.
-bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint break_at) {
+bool find_stretch(Ray ray, inout VolumeRay volume, real end, bool wanted, uint break_at) {
 #ifndef SKIP
 #ifdef COST
   volume.walk.steps += wanted ? 1u : 0u;
@@ -154,13 +156,13 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
   do {
     Stretch s = stretch_left(ray, volume, end);
 #ifdef STRETCHES
-    float t = extending ? volume.through : s.first;
+    real t = extending ? volume.through : s.first;
 #else
-    float t = extending ? volume.through : 0.5 * (s.first + s.last);
+    real t = extending ? volume.through : 0.5 * (s.first + s.last);
 #endif
     ivec3 cell = cell_at(ray, t);
     bool asked = (seeking || extending) && t >= volume.walk.until;
-    float from, until;
+    real from, until;
     bool told = skip_step(ray, cell, t, asked, volume.walk.skip, from, until);
     volume.walk.from = told ? from : volume.walk.from;
     volume.walk.until = told ? until : volume.walk.until;
@@ -178,12 +180,12 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
     int size = empty_cube(brick, planes, cell);
     bool here = matters && (extending ? size < 4 : occupied(planes, cell));
     size = here ? 4 : size;
-    float reach = min(exit_time(ray, cell & ~(size - 1), size), volume.walk.until);
-    float leave = matters ? reach : volume.walk.from;
+    real reach = min(exit_time(ray, cell & ~(size - 1), size), volume.walk.until);
+    real leave = matters ? reach : volume.walk.from;
 #else
     bool here = matters;
-    float leave = volume.walk.from;
-    float reach = volume.walk.until;
+    real leave = volume.walk.from;
+    real reach = volume.walk.until;
 #endif
 #ifdef STRETCHES
     here = here || (seeking && answered && leave < s.last);
@@ -207,45 +209,46 @@ bool find_stretch(Ray ray, inout VolumeRay volume, float end, bool wanted, uint 
 
 // What the spline is at a point, as the transfer function sees it.
 struct Look {
-  float place;       // in the table; pre-integrated, beyond it too
-  float light;       // what is left of a colour
-  float modulation;  // what is left of an opacity
-  float change;      // along a whole stretch, in entries of the table
+  real place;        // in the table; pre-integrated, beyond it too
+  real light;        // what is left of a colour
+  real modulation;   // what is left of an opacity
+  real change;       // along a whole stretch, in entries of the table
 };
 
 #if defined(LIT) || defined(MODULATED)
-vec3 world_gradient(vec3 gradient) {
-  return gradient.x * parameters.normal_x.xyz + gradient.y * parameters.normal_y.xyz + gradient.z * parameters.normal_z.xyz;
+rvec3 world_gradient(rvec3 gradient) {
+  return gradient.x * wide(parameters.normal_x.xyz, parameters.normal_x_lo.xyz) + gradient.y * wide(parameters.normal_y.xyz, parameters.normal_y_lo.xyz) +
+         gradient.z * wide(parameters.normal_z.xyz, parameters.normal_z_lo.xyz);
 }
 #endif
 #ifdef LIT
 // The headlight (shade.glsl), from either side.
-float light_left(Ray ray, vec3 n, float size) {
-  float facing = size > 0.0 ? min(abs(dot(n, ray.view)) / size, 1.0) : 1.0;
+real light_left(Ray ray, rvec3 n, real size) {
+  real facing = size > 0.0 ? min(abs(dot(n, ray.view)) / size, 1.0) : 1.0;
   return mix(facing, 1.0, parameters.background.w);
 }
 #endif
 #ifdef MODULATED
-float opacity_left(float size) {
+real opacity_left(real size) {
   return clamp((size * (parameters.modulation.z / SPLINE_SCALE) - parameters.modulation.x) * parameters.modulation.y, 0.0, 1.0);
 }
 #endif
 
-Look look(Ray ray, VolumeRay volume, float t) {
+Look look(Ray ray, VolumeRay volume, real t) {
   SplineCell cell = spline_cell(cell_at(ray, t), ray.centre);
-  vec3 u = cell_point(cell, ray.o, ray.d, t);
-  float low = SPLINE_SCALE * parameters.transfer.x;
+  rvec3 u = cell_point(cell, ray.o, ray.d, t);
+  real low = SPLINE_SCALE * parameters.transfer.x;
   Look seen = Look(0.0, 1.0, 1.0, 0.0);
-  float value;
+  real value;
 #if defined(LIT) || defined(MODULATED) || defined(ADAPTIVE)
-  vec3 gradient;
+  rvec3 gradient;
   spline_jet(cell, u, low, value, gradient);
 #ifdef ADAPTIVE
-  seen.change = abs(dot(gradient, ray.d)) * (volume.dt * parameters.transfer.y / SPLINE_SCALE);
+  seen.change = abs(dot(gradient, ray.d)) * (volume.dt * wide(parameters.transfer.y, parameters.transfer.w) / SPLINE_SCALE);
 #endif
 #if defined(LIT) || defined(MODULATED)
-  vec3 n = world_gradient(gradient);
-  float size = length(n);
+  rvec3 n = world_gradient(gradient);
+  real size = length(n);
 #ifdef LIT
   seen.light = light_left(ray, n, size);
 #endif
@@ -256,7 +259,7 @@ Look look(Ray ray, VolumeRay volume, float t) {
 #else
   value = spline_value(cell, u, low);
 #endif
-  seen.place = value * (parameters.transfer.y / SPLINE_SCALE);
+  seen.place = value * (wide(parameters.transfer.y, parameters.transfer.w) / SPLINE_SCALE);
 #ifdef PRE_INTEGRATED
   seen.place = clamp(seen.place, -1e18, 1e18);
 #else
@@ -275,19 +278,19 @@ bool within_known(VolumeRay volume) {
 }
 
 // The opacity of one of 1, 2, 4 or 8 equal parts of a stretch, with its colour.
-vec4 part_of(vec4 stretch, int parts) {
-  float keep = 1.0 - stretch.a;
+rvec4 part_of(rvec4 stretch, int parts) {
+  real keep = 1.0 - stretch.a;
   keep = parts > 1 ? sqrt(keep) : keep;
   keep = parts > 2 ? sqrt(keep) : keep;
   keep = parts > 4 ? sqrt(keep) : keep;
-  float a = 1.0 - keep;
-  return parts > 1 && stretch.a > 0.0 ? vec4(stretch.rgb * (a / stretch.a), a) : stretch;
+  real a = 1.0 - keep;
+  return parts > 1 && stretch.a > 0.0 ? rvec4(stretch.rgb * (a / stretch.a), a) : stretch;
 }
 
 // Where `here`, adds what reaches until t.
-void see_stretch(inout Seen seen, VolumeRay volume, vec4 stretch, float t, bool here) {
-  float transmittance = seen.transmittance;
-  seen.color += here ? transmittance * stretch.rgb : vec3(0.0);
+void see_stretch(inout Seen seen, VolumeRay volume, rvec4 stretch, real t, bool here) {
+  real transmittance = seen.transmittance;
+  seen.color += here ? transmittance * stretch.rgb : rvec3(0.0);
   seen.transmittance = here ? transmittance * (1.0 - stretch.a) : transmittance;
 #ifndef SURFACES
   bool half_seen = seen.first.w == NO_HIT && seen.transmittance <= 0.5;
@@ -296,11 +299,11 @@ void see_stretch(inout Seen seen, VolumeRay volume, vec4 stretch, float t, bool 
 }
 
 // Where in what is left of a stretch the spline is looked at next.
-float look_at(VolumeRay volume, Stretch s) {
+real look_at(VolumeRay volume, Stretch s) {
 #if defined(PRE_INTEGRATED)
   return volume.have ? s.last : s.first;
 #elif defined(ADAPTIVE)
-  float middle = volume.parts > 1 ? (float(volume.part) + 0.5) / float(volume.parts) : 0.5;
+  real middle = volume.parts > 1 ? (real(volume.part) + 0.5) / real(volume.parts) : 0.5;
   return s.first + middle * (s.last - s.first);
 #else
   return 0.5 * (s.first + s.last);
@@ -309,7 +312,7 @@ float look_at(VolumeRay volume, Stretch s) {
 
 #ifdef VOIDS
 // Whether nothing is seen of a stretch that is looked at in t: it is in a void cell there, or, seen by both ends, a void cell is between them.
-bool in_void(Ray ray, Stretch s, float t, bool here) {
+bool in_void(Ray ray, Stretch s, real t, bool here) {
 #ifdef PRE_INTEGRATED
   return void_between(ray, s.first, s.last, here);
 #else
@@ -319,9 +322,9 @@ bool in_void(Ray ray, Stretch s, float t, bool here) {
 #endif
 
 // Evaluates the spline once where `ready` and adds what that tells.
-void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout Seen seen) {
+void look_once(Ray ray, inout VolumeRay volume, real end, bool ready, inout Seen seen) {
   Stretch s = stretch_left(ray, volume, end);
-  float t = look_at(volume, s);
+  real t = look_at(volume, s);
 #ifdef BRICKS
   ivec3 cell = cell_at(ray, t);
   if (ready && !brick_resident(cell)) {
@@ -332,22 +335,22 @@ void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout See
 #endif
   Look at = look(ray, volume, t);
 #if defined(PRE_INTEGRATED)
-  vec4 stretch = pre_integrated(volume.front, at.place);
+  rvec4 stretch = pre_integrated(volume.front, at.place);
   bool here = ready && volume.have;
   bool ended = here;
   volume.have = volume.have || ready;
   volume.front = ready ? at.place : volume.front;
 #elif defined(ADAPTIVE)
   bool parted = volume.parts > 1;
-  vec4 stretch = part_of(classified(at.place), volume.parts);
-  float finest = parameters.modulation.w;  // entries a part may go along
+  rvec4 stretch = part_of(classified(at.place), volume.parts);
+  real finest = parameters.modulation.w;   // entries a part may go along
   int parts = at.change <= finest ? 1 : at.change <= 2.0 * finest ? 2 : at.change <= 4.0 * finest ? 4 : 8;
   bool here = ready && (parted || parts == 1);
   bool ended = here && (!parted || volume.part + 1 == volume.parts);
   volume.part = ready && parted ? volume.part + 1 : ready ? 0 : volume.part;
   volume.parts = ended ? 0 : ready && !parted ? parts : volume.parts;
 #else
-  vec4 stretch = classified(at.place);
+  rvec4 stretch = classified(at.place);
   bool here = ready;
   bool ended = ready;
 #endif
@@ -374,7 +377,7 @@ void look_once(Ray ray, inout VolumeRay volume, float end, bool ready, inout See
 }
 
 // Where `wanted`, integrates until `end`, or until nothing more can be seen, or (`parked`) until a brick is missing.
-void integrate(Ray ray, inout VolumeRay volume, bool wanted, float end, inout Seen seen) {
+void integrate(Ray ray, inout VolumeRay volume, bool wanted, real end, inout Seen seen) {
   bool busy = wanted && !opaque(seen) && stretches_left(ray, volume, end);
   uint lanes = subgroupBallotBitCount(subgroupBallot(busy));
   do {

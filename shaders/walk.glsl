@@ -5,10 +5,10 @@
 
 struct Walk {
   ivec3 cell;  // to look at next
-  float t;     // where the ray enters it
+  real t;      // where the ray enters it
 #ifdef SKIP
   SkipState skip;
-  float from, until;  // the structure's last answer
+  real from, until;   // the structure's last answer
 #endif
 #ifdef COST
   uint steps, intervals;
@@ -16,7 +16,7 @@ struct Walk {
 };
 
 // A walk from t on. Everything until `until` may matter; behind it the structure is to be asked.
-Walk begin_walk(Ray ray, float t, float until) {
+Walk begin_walk(Ray ray, real t, real until) {
   Walk walk;
   walk.t = t;
   walk.cell = cell_at(ray, t);
@@ -33,7 +33,7 @@ Walk begin_walk(Ray ray, float t, float until) {
 }
 
 // How far the structure's last answer reaches.
-float walk_until(Walk walk) {
+real walk_until(Walk walk) {
 #ifdef SKIP
   return walk.until;
 #else
@@ -76,7 +76,7 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted, uint break_at) {
   bool seeking = wanted && walk.t < ray.end;
   do {
     bool asked = seeking && walk.t >= walk.until;
-    float from, until;
+    real from, until;
     bool told = skip_step(ray, walk.cell, walk.t, asked, walk.skip, from, until);
     walk.from = told ? from : walk.from;
     walk.until = told ? until : walk.until;
@@ -91,11 +91,11 @@ bool find_cell(Ray ray, inout Walk walk, bool wanted, uint break_at) {
     uint planes = occupied_planes(brick, walk.cell);
     found = found || (matters && occupied(planes, walk.cell));
     int size = empty_cube(brick, planes, walk.cell);
-    float leave = exit_time(ray, walk.cell & ~(size - 1), size);
+    real leave = exit_time(ray, walk.cell & ~(size - 1), size);
     leave = matters ? min(leave, walk.until) : walk.from;
 #else
     found = found || matters;
-    float leave = walk.from;
+    real leave = walk.from;
 #endif
     bool move = answered && !found;
     ivec3 next = cell_at(ray, leave);

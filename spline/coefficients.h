@@ -26,7 +26,7 @@ struct Coefficients {
   int apron = 0;
   World world;
   std::vector<T> data;  ///< number ((c*pz + k+apron)*py + j+apron)*px + i+apron, p = extents + 2*apron
-  ValueUnit unit;       ///< of `data`; plain where T is double
+  ValueUnit unit;       ///< of `data`; plain for the reference
 
   Extents padded() const { return extents + std::int64_t(2 * apron); }
   std::int64_t stride_y() const { return padded().x; }
@@ -38,5 +38,10 @@ struct Coefficients {
     return std::size_t(coset * stride_coset() + p.z * stride_z() + p.y * stride_y() + p.x);
   }
 };
+
+/// Those of the reference as kernels of 32-bit floats read them: what coefficients_float makes.
+inline Coefficients<float> narrowed(const Coefficients<double>& c) {
+  return {c.lattice, c.extents, c.apron, c.world, std::vector<float>(c.data.begin(), c.data.end()), c.unit};
+}
 
 }  // namespace quincunx

@@ -14,17 +14,20 @@
 //      208  world_forward, world_right, world_up                          world direction, right and up times their tangent
 //      256  normal_x, normal_y, normal_z                                  columns: lattice gradient to world gradient
 //      304  background                                                    .w: ambient
-//      320  march                                                         step, delta (lattice coordinates), unused, unused
+//      320  march                                                         step, delta (lattice coordinates), their low parts
 //      336  cells                                                         cells per axis; .w: number of isovalues
 //      352  strides                                                       y, z, coset, number of sample (0; 0,0,0)
 //      368  picture                                                       width, height, first row, rows of this dispatch
 //      384  blocks                                                        blocks per axis of the skipping structure; .w: log2 of their edge
 //      400  bricks                                                        occupancy bricks per axis; .w: rays a lane of the seeking pass
 //      416  structure                                                     the skipping structure's own numbers (its GLSL twin says which)
-//      432  sampling                                                      of a volume: length of a stretch (world), 0, least transmittance, seed (bits)
-//      448  transfer                                                      low (value), entries per value, last entry, 0
+//      432  sampling                                                      of a volume: length of a stretch (world) as hi, lo, least transmittance, seed (bits)
+//      448  transfer                                                      low (value), entries per value (hi), last entry, entries per value (lo)
 //      464  modulation                                                    low (gradient magnitude), 1/(high-low), gradients' scale, finest (entries)
 //      480  pages                                                         bricks of the pool per axis; .w: log2 of their edge in cells
+// and for kernels that compute in doubles (DOUBLE)
+//      496  world_forward_lo, world_right_lo, world_up_lo                 of those above
+//      544  normal_x_lo, normal_y_lo, normal_z_lo                         of those above
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
@@ -53,9 +56,13 @@ struct Parameters {
   vec4 transfer;
   vec4 modulation;
   ivec4 pages;
+#if defined(__cplusplus) || defined(DOUBLE)
+  vec4 world_forward_lo, world_right_lo, world_up_lo;
+  vec4 normal_x_lo, normal_y_lo, normal_z_lo;
+#endif
 #ifdef __cplusplus
 };
-static_assert(sizeof(TraceParameters) == 496);
+static_assert(sizeof(TraceParameters) == 592);
 }  // namespace quincunx
 #else
 };

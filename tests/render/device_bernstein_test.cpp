@@ -17,6 +17,7 @@ constexpr const char* kKernel = R"(#version 460
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Polynomials { float coefficient[]; };
 layout(std430, binding = 1) writeonly buffer Roots { float root[]; };
+#include "real.glsl"
 #include "bernstein.glsl"
 void main() {
   uint n = gl_GlobalInvocationID.x;

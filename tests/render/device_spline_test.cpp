@@ -26,6 +26,7 @@ static_assert(sizeof(Question) == 48 && sizeof(Answer) == 96);
 constexpr const char* kKernel = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#include "real.glsl"
 #include "shared/trace_parameters.h"
 #include "coefficients.glsl"
 #include "spline.glsl"
