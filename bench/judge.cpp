@@ -139,7 +139,7 @@ Judge::Place Judge::place(const Ray& ray, double s, bool told, const Config& con
     meant(beside);
   }
   for (int n = 0; n < 27; ++n) meant(jet(ray.lattice, p.s, aside * glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
-  p.band = rounding_ * rounding + slope * aside + along;
+  p.band = rounding_ * rounding + slope * aside + along + config.shift;
   double norm = 0.0;
   for (int a = 0; a < 3; ++a) norm += glm::length(normals_[a]);
   const double size = glm::length(g), off = norm * gradient_rounding;

@@ -38,6 +38,7 @@ class Judge {
   struct Config {
     double epsilon = 0x1p-24;  ///< half a unit in the last place, relative, of the arithmetic that is judged
     double offset = 0.0;       ///< that coefficients are less before they are rounded (ValueUnit)
+    double shift = 0.0;        ///< by which kernels move isovalues (value_rounding)
     glm::i64vec3 cells{0};     ///< of the volume that is rendered, where the one that is judged by is a part of it
   };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "bench/huge_volume.h"
@@ -10,11 +11,13 @@
 #include "lattice/error.h"
 #include "render/device_probe.h"
 #include "render/device_renderer.h"
+#include "render/tracer.h"
 
 namespace quincunx {
 namespace {
 
 constexpr double kEpsilon = 0x1p-24;
+constexpr double kDoubleEpsilon = 0x1p-48;  // of doubles, 2^-53, and of the reference's own rounding
 constexpr double kLeast = 1e-300;          // of m: all coefficients may be 0
 constexpr std::size_t kHugeWeight = 200;   // of the progress, in cases
 constexpr double kOwnRounding = 0x1p-44;  // of the double-precision spline, relative to its coefficients
@@ -91,20 +94,27 @@ StabilityLine measure_case(const StabilityCase& c, const std::string& name, cons
     return line;
   }
   DeviceRenderer renderer(kernels, subject.volume, config);
+  std::optional<DeviceRenderer> doubles;
+  if (gpu::features(kernels->device()).float64) {
+    config.precision = Precision::float64;
+    doubles.emplace(kernels, subject.volume, config);
+  }
   const VoidCells voids = make_finite(subject.volume, *spline, c.nan);
   subject.coefficients = spline->coefficients(subject.volume, Spline::Prefilter::quasi_interpolation);
   const SampleRange range = sample_range(subject.volume);
   subject.rounded = spline->coefficients_float(subject.volume, Spline::Prefilter::quasi_interpolation, float_unit(c.type, range.min, range.max));
+  const double shift = value_rounding(subject.coefficients);
   // Bounds of the rounded coefficients are those of the values where they are rounded as they are.
   const CellBounds bounds = cell_bounds(*spline, subject.rounded);
 
-  StabilityLine line{c.group, c.name, name, c.isovalue, evaluation_error(subject, kernels->device(), plan), {}, {}, {}};
+  StabilityLine line{c.group, c.name, name, c.isovalue, evaluation_error(subject, kernels->device(), plan), {}, {}, {}, {}};
   for (const Camera& camera : c.views(spline->lattice())) {
     Renderer::Request request = request_for(c, camera);
     const Judge judge(*spline, subject.coefficients, request.scene, subject.rounded.unit.plain() ? &bounds : nullptr, &voids);
-    const Judge::Config floats{.epsilon = kEpsilon, .offset = subject.rounded.unit.offset};
+    const Judge::Config floats{.epsilon = kEpsilon, .offset = subject.rounded.unit.offset, .shift = 0.0, .cells = glm::i64vec3(0)};
     RenderStats stats;
     line.exact += judge.judge(renderer.render(request, stats), floats);
+    if (doubles) line.doubles += judge.judge(doubles->render(request, stats), {.epsilon = kDoubleEpsilon, .offset = floats.offset, .shift = shift, .cells = glm::i64vec3(0)});
     request.scene.intersect = Intersect::march;
     request.scene.step = plan.step;
     line.march += judge.judge(renderer.render(request, stats), floats);

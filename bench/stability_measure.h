@@ -26,10 +26,12 @@ struct StabilityLine {
   double isovalue = 0.0;
   EvaluationError evaluation;
   Verdict exact, march;  ///< of all views; march, at `step` cells, for comparison alone
+  Verdict doubles;       ///< of kernels that compute in 64-bit floats; no rays where the device has none
   std::optional<bool> refused;  ///< of a case that is to be refused, and nothing else: whether it was, with the place of the first sample
 
-  bool passed() const { return refused ? *refused : evaluation.passed() && exact.passed(); }
+  bool passed() const { return refused ? *refused : evaluation.passed() && exact.passed() && doubles.passed(); }
   bool marched() const { return march.rays > 0; }
+  bool doubled() const { return doubles.rays > 0; }
 };
 
 struct StabilityPlan {

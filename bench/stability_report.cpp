@@ -21,9 +21,9 @@ StabilitySection cases_section(const StabilityReport& report) {
       "The catalogue",
       fmt::format("value, gradient: the largest error at random points in units of e m (e = 2^-24, m the largest coefficient near). hits: of the double-precision reference. holes, wrong: first hits "
                   "lost or misplaced beyond doubt; undecided: other outcomes than the reference's that rounding excuses. depth: cells, where the surface is not grazed. residual, normal part: the "
-                  "largest |f - isovalue| at a hit and the largest angle between normal and gradient, in parts of what is allowed. march: holes and wrong hits of a march of {} cells, of the same pixels.",
+                  "largest |f - isovalue| at a hit and the largest angle between normal and gradient, in parts of what is allowed. double: outcomes left undecided by kernels of 64-bit floats, judged alike. march: holes and wrong hits of a march of {} cells, of the same pixels.",
                   report.step),
-      {.headings = {"group", "case", "spline", "value, e m", "gradient, e m", "rays", "hits", "holes", "wrong", "undecided", "not finite", "depth", "residual", "normal, deg", "normal part", "march", ""},
+      {.headings = {"group", "case", "spline", "value, e m", "gradient, e m", "rays", "hits", "holes", "wrong", "undecided", "not finite", "depth", "residual", "normal, deg", "normal part", "double", "march", ""},
        .rows = {},
        .left = 3}};
   for (const StabilityLine& line : report.lines) {
@@ -31,7 +31,8 @@ StabilitySection cases_section(const StabilityReport& report) {
     section.table.rows.push_back({line.group, line.name, line.spline, short_number(line.evaluation.value), short_number(line.evaluation.gradient),
                                   fmt::format("{}", v.rays), fmt::format("{}", v.expected), fmt::format("{}", v.holes), fmt::format("{}", v.wrong),
                                   fmt::format("{}", v.undecided), fmt::format("{}", v.not_finite), short_number(v.depth), short_number(v.residual),
-                                  short_number(v.normal), short_number(v.normal_part), line.marched() ? fmt::format("{}", lost(line.march)) : "-", passed_text(line.passed())});
+                                  short_number(v.normal), short_number(v.normal_part), line.doubled() ? fmt::format("{}", line.doubles.undecided) : "-",
+                                  line.marched() ? fmt::format("{}", lost(line.march)) : "-", passed_text(line.passed())});
   }
   return section;
 }
@@ -127,12 +128,12 @@ std::vector<StabilitySection> stability_sections(const StabilityReport& report) 
 std::string stability_csv(const StabilityReport& report) {
   std::string csv =
       "group,case,spline,isovalue,value_em,value_allowed_em,gradient_em,gradient_allowed_em,rays,expected,hits,holes,wrong,undecided,not_finite,depth_cells,residual_part,normal_degrees,normal_part,"
-      "march_holes,march_wrong,march_depth_cells,passed\n";
+      "double_holes,double_wrong,double_undecided,double_residual_part,march_holes,march_wrong,march_depth_cells,passed\n";
   for (const StabilityLine& line : report.lines) {
     const Verdict& v = line.exact;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", line.group, csv_text(line.name), line.spline, line.isovalue, line.evaluation.value,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", line.group, csv_text(line.name), line.spline, line.isovalue, line.evaluation.value,
                        line.evaluation.value_allowed, line.evaluation.gradient, line.evaluation.gradient_allowed, v.rays, v.expected, v.hits, v.holes, v.wrong, v.undecided, v.not_finite, v.depth,
-                       v.residual, v.normal, v.normal_part, line.march.holes, line.march.wrong, line.march.depth, line.passed());
+                       v.residual, v.normal, v.normal_part, line.doubles.holes, line.doubles.wrong, line.doubles.undecided, line.doubles.residual, line.march.holes, line.march.wrong, line.march.depth, line.passed());
   }
   return csv;
 }
@@ -153,6 +154,7 @@ Json stability_json(const StabilityReport& report) {
                              {"gradient_em", line.evaluation.gradient},
                              {"gradient_allowed_em", line.evaluation.gradient_allowed},
                              {"exact", verdict_json(line.exact)},
+                             {"double", verdict_json(line.doubles)},
                              {"march", verdict_json(line.march)},
                              {"passed", line.passed()}});
   }

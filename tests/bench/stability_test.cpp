@@ -79,7 +79,7 @@ TEST(Watertight, NoRayLeaksThroughAClosedSurface) {
 
 StabilityReport small_report() {
   StabilityReport report{.command = "quincunx stability --groups \"<&>\"", .machine = {"a device", "a driver", "a processor", 2}, .step = 0.25, .seed = 1, .lines = {}, .roots = {}, .watertight = {}};
-  report.lines.push_back({"flat", "a plateau, level", "bcc7", 0.25, {1.0, 2.0, 512.0, 2048.0}, {}, {}, {}});
+  report.lines.push_back({"flat", "a plateau, level", "bcc7", 0.25, {1.0, 2.0, 512.0, 2048.0}, {}, {}, {}, {}});
   report.lines.push_back(report.lines.front());
   report.lines.back().exact.holes = 3;
   RootsLine roots;
@@ -108,7 +108,7 @@ TEST(StabilityReport, QuotesWhatCsvAndHtmlWouldMisread) {
   std::istringstream lines(csv);
   std::string heading;
   std::getline(lines, heading);
-  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 22);
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 26);
   EXPECT_THAT(html, HasSubstr("--groups &quot;&lt;&amp;&gt;&quot;"));
   EXPECT_THAT(html, HasSubstr("2 of 3 passed"));
   EXPECT_THAT(html, HasSubstr("class=\"fail\""));
