@@ -18,7 +18,11 @@ constexpr double kNear = 1.5;
 constexpr double kMostStretches = 1 << 23;
 
 float high(double x) { return float(x); }
-float low(double x) { return float(x - double(float(x))); }
+// volatile: GCC 12 takes the difference for 0 where it makes a vector of several.
+float low(double x) {
+  const volatile float hi = float(x);
+  return float(x - double(hi));
+}
 
 void store(const glm::dvec3& x, double w, vec4& hi, vec4& lo) {
   hi = vec4(high(x.x), high(x.y), high(x.z), high(w));

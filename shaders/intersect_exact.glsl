@@ -102,7 +102,7 @@ real[SPLINE_DEGREE + 1] distances(real b[SPLINE_DEGREE + 1], real isovalue, bool
   real rounding = crossed ? HIT_ROUNDING * size : 0.0;
   for (int i = 0; i <= SPLINE_DEGREE; ++i) h[i] += rounding;
   // The root at 0 is known; behind it the polynomial leaves 0 as h[1] says.
-  h[0] = crossed ? max(h[0], max(1e-3 * h[1], 1e-30)) : h[0];
+  h[0] = crossed ? max(h[0], max(BY_PRECISION(1e-3, 1e-9lf) * h[1], 1e-30)) : h[0];
 #endif
   return h;
 }

@@ -98,6 +98,18 @@ std::vector<KernelVariant> void_variants() {
   return variants;
 }
 
+/// Every fifth of `variants` in 64-bit floats, of each spline in turns.
+std::vector<KernelVariant> in_doubles(const std::vector<KernelVariant>& variants) {
+  const std::string shaders[] = {"bcc7.glsl", "trilinear.glsl", "tricubic.glsl"};
+  std::vector<KernelVariant> doubles;
+  for (std::size_t n = 0; n < variants.size(); n += 5) {
+    doubles.push_back(variants[n]);
+    doubles.back().precision = Precision::float64;
+    doubles.back().spline_shader = shaders[n % 3];
+  }
+  return doubles;
+}
+
 std::string describe(const KernelVariant& v) {
   std::string text = v.structure;
   for (const KernelPart& part : kernel_parts(v)) text += (part.feature.compiled ? ", " : ", no ") + part.feature.name;
@@ -135,6 +147,8 @@ std::set<std::string> buffers_of(const std::string& name) {
 TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothingElse) {
   std::vector<KernelVariant> variants = all_variants();
   for (const std::vector<KernelVariant>& more : {volume_variants(), void_variants()}) variants.insert(variants.end(), more.begin(), more.end());
+  const std::vector<KernelVariant> of_doubles = in_doubles(variants);
+  variants.insert(variants.end(), of_doubles.begin(), of_doubles.end());
   for (const KernelVariant& v : variants) {
     SCOPED_TRACE(describe(v));
     std::set<std::string> names, bound;
@@ -160,13 +174,17 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
 }
 
 TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
-  const KernelVariant v;
-  const gpu::Reflection reflection = gpu::reflect(gpu::compile(kernel_files(v), kernel_source(v, Pass::seek)));
-  std::map<std::string, std::size_t> offsets;
-  for (const gpu::BlockMember& m : reflection.members)
-    if (m.block == "uniforms") offsets[m.name] = m.offset;
+  const auto offsets_in = [](Precision precision) {
+    KernelVariant v;
+    v.precision = precision;
+    const gpu::Reflection reflection = gpu::reflect(gpu::compile(kernel_files(v), kernel_source(v, Pass::seek)));
+    std::map<std::string, std::size_t> offsets;
+    for (const gpu::BlockMember& m : reflection.members)
+      if (m.block == "uniforms") offsets[m.name] = m.offset;
+    return offsets;
+  };
 #define MEMBER(name) {"all." #name, offsetof(TraceParameters, name)}
-  const std::map<std::string, std::size_t> expected{
+  std::map<std::string, std::size_t> expected{
       MEMBER(forward_hi),
       MEMBER(forward_lo),
       MEMBER(right_hi),
@@ -198,8 +216,10 @@ TEST(Kernel, ReadsItsParametersWhereCppPutsThem) {
       MEMBER(transfer),
       MEMBER(modulation),
       MEMBER(pages)};
+  EXPECT_EQ(offsets_in(Precision::float32), expected);
+  expected.insert({MEMBER(world_forward_lo), MEMBER(world_right_lo), MEMBER(world_up_lo), MEMBER(normal_x_lo), MEMBER(normal_y_lo), MEMBER(normal_z_lo)});
+  EXPECT_EQ(offsets_in(Precision::float64), expected);
 #undef MEMBER
-  EXPECT_EQ(offsets, expected);
 }
 
 }  // namespace
