@@ -141,10 +141,15 @@ TEST_P(EverySpline, ShowsOutsideVoidCellsWhatTheExtendedVolumeShows) {
 }
 
 TEST_P(EverySpline, ShowsTheSamePictureWithEveryStructureAsWithNone) {
-  const std::vector<VoidVolume> volumes = void_volumes(lattice, kWorld);
+  // Each look sees every other structure, in turns with and without the cell test, and the Cartesian splines share the looks: compiling kernels
+  // is what takes time.
+  std::vector<VoidVolume> volumes = void_volumes(lattice, kWorld);
+  volumes.pop_back();  // the one without voids
   RenderStats stats;
-  int view = 0;
+  int view = 0, look_number = 0;
   for (const Look& l : looks()) {
+    ++look_number;
+    if (lattice == LatticeKind::cartesian && look_number % 2 == (GetParam() == std::string_view("trilinear"))) continue;
     std::vector<std::unique_ptr<DeviceRenderer>> renderers;
     std::vector<Renderer::Request> requests;
     std::vector<Frame> truths;
@@ -156,16 +161,18 @@ TEST_P(EverySpline, ShowsTheSamePictureWithEveryStructureAsWithNone) {
       truths.push_back(renderers.back()->render(request, stats));
       requests.push_back(request);
     }
-    int turn = 0;
-    for (const std::string_view label : skip_labels())
-      for (const bool cell_test : {false, true})
-        for (std::size_t n = 0; n < volumes.size() && label != "none"; ++n) {
-          const int block = 1 << (turn++ % 5);
-          requests[n].skip = labelled_skip(label, {.block = block, .cell_test = cell_test});
-          SCOPED_TRACE(volumes[n].name + ", " + l.name + ", " + std::string(label) + ", block " + std::to_string(block) + (cell_test ? ", cells tested" : ""));
-          expect_same_picture(renderers[n]->render(requests[n], stats), truths[n]);
-          EXPECT_TRUE(volumes[n].name != "all" || stats.active_blocks == 0);
-        }
+    int blocks = look_number;
+    for (std::size_t number = std::size_t(look_number / 2 % 2); number < skip_labels().size(); number += 2) {
+      const std::string_view label = skip_labels()[number];
+      const bool cell_test = (std::size_t(look_number) + number / 2) % 2 == 0;
+      for (std::size_t n = 0; n < volumes.size() && label != "none"; ++n) {
+        const int block = 1 << (blocks++ % 5);
+        requests[n].skip = labelled_skip(label, {.block = block, .cell_test = cell_test});
+        SCOPED_TRACE(volumes[n].name + ", " + l.name + ", " + std::string(label) + ", block " + std::to_string(block) + (cell_test ? ", cells tested" : ""));
+        expect_same_picture(renderers[n]->render(requests[n], stats), truths[n]);
+        EXPECT_TRUE(volumes[n].name != "all" || stats.active_blocks == 0);
+      }
+    }
   }
 }
 
@@ -185,7 +192,7 @@ TEST_F(DeviceTest, HasNoSurfaceFromOneSideOfAVoidToTheOther) {
         request.scene.intersect = way;
         request.skip = labelled_skip(label, {.block = 4});
         RenderStats stats;
-        EXPECT_EQ(count_hits(renderer.render(request, stats)), 0u) << spline << ", " << label;
+        EXPECT_EQ(count_hits(renderer.render(request, stats)), 0u) << spline << ", " << label << (way == Intersect::exact ? ", exact" : ", marched");
       }
   }
 }
