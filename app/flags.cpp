@@ -9,6 +9,7 @@
 
 #include "app/values.h"
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 namespace {
@@ -101,7 +102,7 @@ CLI::Option* add_choice_name(CLI::App& app, const std::string& flag, std::string
 
 void check_choice(std::string_view text, std::string_view flag, const std::vector<std::string>& choices) {
   if (std::find(choices.begin(), choices.end(), text) != choices.end()) return;
-  throw InputError(fmt::format("{}: found '{}', expected one of {}", flag, text, fmt::join(choices, ", ")));
+  throw InputError(fmt::format("{}: found {}, expected one of {}", flag, in_quotes(text), fmt::join(choices, ", ")));
 }
 
 std::string choices_text(const std::vector<std::string>& choices) {

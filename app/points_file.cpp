@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "app/values.h"
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 namespace {
 
+constexpr std::size_t kLongestLine = 4096;  // bytes
 constexpr std::string_view blanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
@@ -44,14 +47,18 @@ PointsFile::PointsFile(const std::string& path) : path_(path) {
 
 std::optional<glm::dvec3> PointsFile::next() {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  while (std::getline(file_, line_)) {
+  // A getline of bounded length: a file without line ends may be larger than memory.
+  std::array<char, kLongestLine + 2> text;
+  while (file_.getline(text.data(), text.size())) {
     ++number_;
-    std::string_view line = line_;
+    std::string_view line(text.data(), std::size_t(file_.gcount()) - (file_.eof() ? 0 : 1));
     if (number_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
     line = trimmed(line);
     if (line.empty() || (number_ == 1 && is_header(line))) continue;
     return parse(line);
   }
+  if (!file_.bad() && !file_.eof())
+    throw InputError(fmt::format("{}:{}: found a line of more than {} bytes, expected three numbers x,y,z", path_, number_ + 1, kLongestLine));
   if (file_.bad()) throw InputError(fmt::format("{}: cannot be read after line {}", path_, number_));
   return std::nullopt;
 }
@@ -62,7 +69,7 @@ glm::dvec3 PointsFile::parse(std::string_view line) const {
   const bool three = first != std::string_view::npos && second != std::string_view::npos &&
                      line.find(',', second + 1) == std::string_view::npos;
   if (!three) {
-    throw InputError(fmt::format("{}: found '{}', expected three numbers x,y,z", place, line.substr(0, 80)));
+    throw InputError(fmt::format("{}: found {}, expected three numbers x,y,z", place, in_quotes(line)));
   }
   return {parse_number(trimmed(line.substr(0, first)), place),
           parse_number(trimmed(line.substr(first + 1, second - first - 1)), place),

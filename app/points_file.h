@@ -11,7 +11,7 @@
 namespace quincunx {
 
 /// A CSV file of three finite numbers a line: x,y,z. The first line may be the header "x,y,z"; blanks around numbers,
-/// blank lines and the line ends of Windows are allowed. Only one line is held at a time.
+/// blank lines and the line ends of Windows are allowed. Only one line is held at a time, of at most 4096 bytes.
 class PointsFile {
  public:
   /// Throws InputError where the file cannot be opened or is no regular file (a pipe could not be read twice).
@@ -25,8 +25,7 @@ class PointsFile {
 
   std::string path_;
   std::ifstream file_;
-  std::string line_;
-  std::uint64_t number_ = 0;  ///< of line_, from 1
+  std::uint64_t number_ = 0;  ///< of the line read last, from 1
 };
 
 }  // namespace quincunx

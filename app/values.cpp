@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 namespace {
@@ -30,7 +31,7 @@ double linear_from_srgb(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((
 double parse_number(std::string_view text, std::string_view flag) {
   const std::optional<double> value = parse_all<double>(text);
   if (!value || !std::isfinite(*value)) {
-    throw InputError(fmt::format("{}: found '{}', expected a finite number", flag, text));
+    throw InputError(fmt::format("{}: found {}, expected a finite number", flag, in_quotes(text)));
   }
   return *value;
 }
@@ -54,14 +55,14 @@ std::vector<double> parse_numbers(std::string_view text, std::string_view flag) 
 std::int64_t parse_integer(std::string_view text, std::string_view flag, std::int64_t low, std::int64_t high) {
   const std::optional<std::int64_t> value = parse_all<std::int64_t>(text);
   if (!value || *value < low || *value > high) {
-    throw InputError(fmt::format("{}: found '{}', expected an integer from {} to {}", flag, text, low, high));
+    throw InputError(fmt::format("{}: found {}, expected an integer from {} to {}", flag, in_quotes(text), low, high));
   }
   return *value;
 }
 
 glm::dvec3 parse_color(std::string_view text, std::string_view flag) {
   const auto refuse = [&] {
-    return InputError(fmt::format("{}: found '{}', expected r,g,b with each from 0 to 1, or #rrggbb", flag, text));
+    return InputError(fmt::format("{}: found {}, expected r,g,b with each from 0 to 1, or #rrggbb", flag, in_quotes(text)));
   };
   if (text.starts_with('#')) {
     std::uint32_t rrggbb = 0;
@@ -95,7 +96,7 @@ std::uint64_t parse_bytes(std::string_view text, std::string_view flag) {
   double number = -1.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
   if (error != std::errc() || end != digits.data() + digits.size() || !(number >= 0.0 && number * scale <= 0x1p53))
-    throw InputError(fmt::format("{}: found {}, expected bytes, such as 256M or 1.5G", flag, text));
+    throw InputError(fmt::format("{}: found {}, expected bytes, such as 256M or 1.5G", flag, in_quotes(text)));
   return std::uint64_t(number * scale);
 }
 

@@ -16,6 +16,7 @@
 #include "io/nrrd_numbers.h"
 #include "lattice/error.h"
 #include "lattice/memory.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 namespace {

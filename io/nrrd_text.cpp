@@ -7,6 +7,7 @@
 #include <set>
 
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 namespace {
@@ -129,16 +130,6 @@ std::string lower_case(std::string_view text) {
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   return lower;
-}
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string shown = "'";
-  for (const char c : text.substr(0, longest)) {
-    const bool printable = c >= ' ' && c <= '~';
-    shown += printable ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-  }
-  return shown + (text.size() > longest ? "...'" : "'");
 }
 
 std::string escape_nrrd(std::string_view text) {

@@ -47,9 +47,6 @@ NrrdText read_nrrd_text(InputFile& file);
 /// A key or value as it stands in a header: newline and backslash escaped.
 std::string escape_nrrd(std::string_view text);
 
-/// `text` in quotes for a message: one line, printable, shortened.
-std::string in_quotes(std::string_view text);
-
 /// `text` without white space at its ends, and in lower case.
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);

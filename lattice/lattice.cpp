@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 
@@ -12,7 +13,7 @@ LatticeKind parse_lattice(std::string_view name, std::string_view what) {
   for (const LatticeKind kind : {LatticeKind::bcc, LatticeKind::cartesian}) {
     if (name == lattice_name(kind)) return kind;
   }
-  throw InputError(fmt::format("{}: unknown lattice '{}', expected bcc or cartesian", what, name));
+  throw InputError(fmt::format("{}: unknown lattice {}, expected bcc or cartesian", what, in_quotes(name)));
 }
 
 int coset_count(LatticeKind kind) { return kind == LatticeKind::bcc ? 2 : 1; }

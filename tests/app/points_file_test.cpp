@@ -36,6 +36,34 @@ TEST(PointsFile, NamesFileAndLineOfWhatIsNoPoint) {
   }
 }
 
+// A line is held in memory, and its text goes into the message.
+TEST(PointsFile, RefusesALineOfEndlessLengthInOneShortLine) {
+  const TemporaryFolder folder;
+  for (const std::string& bad : {std::string(5000, '1'), std::string(1 << 20, ' '), "0,0,\x1b[31m\r0 " + std::string(4000, '1')}) {
+    write_file(folder / "p.csv", "0,0,0\n" + bad + "\n0,0,0\n");
+    PointsFile file(folder / "p.csv");
+    EXPECT_EQ(file.next(), glm::dvec3(0.0));
+    try {
+      file.next();
+      ADD_FAILURE() << bad.size();
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_THAT(message, testing::HasSubstr("p.csv:2: found "));
+      EXPECT_EQ(message.find_first_of("\r\n\x1b"), std::string::npos) << message;
+      EXPECT_LT(message.size(), 300u);
+    }
+  }
+}
+
+TEST(PointsFile, ReadsALineOf4096Bytes) {
+  const TemporaryFolder folder;
+  write_file(folder / "p.csv", "1,2," + std::string(4096 - 5, ' ') + "3\n4,5," + std::string(4096 - 5, ' ') + "6");
+  PointsFile file(folder / "p.csv");
+  EXPECT_EQ(file.next(), glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(file.next(), glm::dvec3(4.0, 5.0, 6.0));
+  EXPECT_EQ(file.next(), std::nullopt);
+}
+
 // It is read twice: a pipe would be empty, or hang, the second time.
 TEST(PointsFile, RefusesAPipeAndAFolder) {
   const TemporaryFolder folder;

@@ -48,6 +48,21 @@ TEST(Values, NameTheFlagAndWhatWasFoundInTheirErrors) {
   }
 }
 
+TEST(Values, AreShownOnOneShortLineWhateverTheyAre) {
+  const std::string text = "4\n\x1b[2J\r" + std::string(100000, '7');
+  for (const auto& parse : {+[](const std::string& t) { parse_number(t, "--flag"); }, +[](const std::string& t) { parse_integer(t, "--flag", 0, 9); },
+                            +[](const std::string& t) { parse_color(t, "--flag"); }, +[](const std::string& t) { parse_bytes(t, "--flag"); }}) {
+    try {
+      parse(text);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find("--flag: found '4\\x0a\\x1b[2J\\x0d7777"), 0u) << message;
+      EXPECT_LT(message.size(), 200u);
+    }
+  }
+}
+
 TEST(Values, AreBytesForPeople) {
   EXPECT_EQ(readable_bytes(12.0), "12 bytes");
   EXPECT_EQ(readable_bytes(1536.0), "1.5 KiB");
