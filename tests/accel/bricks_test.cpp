@@ -29,7 +29,7 @@ std::string refusal(const std::function<void()>& call) {
 
 /// Noise, padded as Coefficients are: every number of the border differs, to see which are read.
 Coefficients<double> noise(LatticeKind lattice, const Extents& extents, int apron) {
-  Coefficients<double> c{lattice, extents, apron, {}, {}};
+  Coefficients<double> c{lattice, extents, apron, {}, {}, {}};
   std::mt19937 random(7);
   for (std::int64_t n = 0; n < coset_count(lattice) * c.stride_coset(); ++n) c.data.push_back(double(random() % 4096));
   return c;
@@ -37,7 +37,7 @@ Coefficients<double> noise(LatticeKind lattice, const Extents& extents, int apro
 
 /// The slot of a brick as coefficients of their own, written by their numbers in the whole volume.
 Coefficients<double> slot_of(const BrickLayout& layout, const glm::ivec3& brick, const Coefficients<double>& whole) {
-  Coefficients<double> slot{layout.lattice, Extents(layout.samples - 2 * layout.apron), layout.apron, {}, {}};
+  Coefficients<double> slot{layout.lattice, Extents(layout.samples - 2 * layout.apron), layout.apron, {}, {}, {}};
   slot.data.assign(std::size_t(layout.slot_floats()), std::numeric_limits<double>::quiet_NaN());
   const glm::i64vec3 last = whole.extents + std::int64_t(whole.apron - 1);
   const glm::i64vec3 strides(layout.strides()), first = layout.first_index(brick);
