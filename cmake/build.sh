@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Configures the preset `release` and builds the targets given (all without any), with as many jobs as processors
-# and memory allow.
+# build.sh [TARGET ...]: configures the preset PRESET (of the environment; `release`) and builds the targets given (all
+# without any), with as many jobs as processors and memory allow.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,9 +9,10 @@ gib=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo)
 jobs=$(nproc)
 ((jobs <= gib)) || jobs=$((gib > 1 ? gib : 1))
 
-cmake --preset release
+preset=${PRESET:-release}
+cmake --preset "$preset"
 if (($# > 0)); then
-  cmake --build --preset release --parallel "$jobs" --target "$@"
+  cmake --build --preset "$preset" --parallel "$jobs" --target "$@"
 else
-  cmake --build --preset release --parallel "$jobs"
+  cmake --build --preset "$preset" --parallel "$jobs"
 fi

@@ -22,8 +22,11 @@ for reader in "${readers[@]}"; do
   if ASAN_OPTIONS=quarantine_size_mb=16:max_free_fill_size=0 "build/fuzz/${reader}_fuzzer" -runs="$inputs" -seed="${SEED:-1}" -max_len=4096 -timeout=10 \
     -rss_limit_mb=1024 -malloc_limit_mb=256 -print_final_stats=1 -dict="tests/fuzz/dictionaries/$reader.dict" -artifact_prefix="build/fuzz/found/$reader-" \
     "$grown" "tests/fuzz/corpus/$reader" </dev/null >"$log" 2>&1; then
-    echo "$reader: $(awk '/^Done/ { print $2 " inputs in " $5 " s" } / DONE / { for (n = 1; n < NF; ++n) if ($n == "cov:") print $(n + 1) " edges of the code reached," }' "$log" |
-      tr '\n' ' ')$(awk '/peak_rss_mb/ { print "at most " $2 " MiB" }' "$log")"
+    awk -v reader="$reader" '
+      /DONE/ { for (n = 1; n < NF; ++n) if ($n == "cov:") edges = $(n + 1) }
+      /^Done/ { inputs = $2; seconds = $5 }
+      /peak_rss_mb/ { memory = $2 }
+      END { print reader ": " inputs " inputs in " seconds " s, " edges " edges of the code reached, at most " memory " MiB" }' "$log"
   else
     status=1
     echo "$reader: failed; see $log" >&2

@@ -30,6 +30,18 @@ TEST(Lattice, AnUnknownNameIsRefusedNamingTheFlagAndTheChoices) {
   }
 }
 
+TEST(Lattice, ANameOfSeveralLinesIsRefusedInOne) {
+  // As the key/value of a header may hold, whose newlines are written \\n.
+  try {
+    parse_lattice("bcc\n\x1b[2J" + std::string(1000, 'x'), "v.nrrd");
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+    EXPECT_LT(message.size(), 200u);
+  }
+}
+
 TEST(Lattice, TheDomainEndsAtTheLastOddPointOfBccAndAtTheLastVoxelOfCartesian) {
   // The odd coset's last point is 2(n-1)+1.
   EXPECT_EQ(domain_max(LatticeKind::bcc, {1, 2, 128}), glm::i64vec3(1, 3, 255));
