@@ -255,7 +255,7 @@ TEST(NrrdHeader, ADetachedHeaderNamesOneFileBesideItAndMayEndWithoutAnEmptyLine)
 
 // The system would open the file of the part before a zero byte, and a terminal obeys an escape in a message.
 TEST(NrrdHeader, TheNameOfADetachedFileHasNoControlCharacters) {
-  for (const std::string name : {std::string("v.raw\0.txt", 10), std::string("v\x1b[2J.raw"), std::string("v\r.raw"), std::string("v\x7f.raw")}) {
+  for (const std::string& name : {std::string("v.raw\0.txt", 10), std::string("v\x1b[2J.raw"), std::string("v\r.raw"), std::string("v\x7f.raw")}) {
     const std::string message = refusal("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\ndata file: " + name + "\n");
     EXPECT_THAT(message, HasSubstr("field 'data file': found 'v"));
     EXPECT_THAT(message, HasSubstr("without control characters"));
