@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test, and those that need no device once more under the sanitizers; the last line
-# says how many passed and failed.
+# Installs what is missing, builds, and runs every test; the last line says how many passed and failed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -20,9 +19,6 @@ run() {
   exit 1
 }
 run release
-# The whole of them takes too long for every day: ctest --preset sanitize.
-PRESET=sanitize cmake/build.sh lattice_test spline_test accel_test io_test fuzz_corpus_test
-run sanitize-host
 
 # Counted case by case: the totals of the file take a test whose program is missing for a skipped one.
 count() { cat "${results[@]}" | grep -c -- "$1" || true; }

@@ -99,7 +99,9 @@ std::string interpret_data_file(const NrrdText& text) {
   const std::vector<std::string_view> words = split_words(name);
   const bool list = !words.empty() && words[0] == "LIST";
   const bool pattern = words.size() >= 4 && words[0].find('%') != std::string_view::npos;
-  if (name.empty() || list || pattern) text.refuse("data file", "the name of one file");
+  // A name that holds a zero byte would open the file of a shorter name.
+  const bool printable = std::none_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
+  if (name.empty() || list || pattern || !printable) text.refuse("data file", "the name of one file, without control characters");
   return (std::filesystem::path(text.path).parent_path() / name).string();
 }
 

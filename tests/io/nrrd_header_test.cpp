@@ -253,6 +253,15 @@ TEST(NrrdHeader, ADetachedHeaderNamesOneFileBesideItAndMayEndWithoutAnEmptyLine)
   EXPECT_THAT(error_of([&] { data_file(""); }), HasSubstr("ends inside the header"));
 }
 
+// The system would open the file of the part before a zero byte, and a terminal obeys an escape in a message.
+TEST(NrrdHeader, TheNameOfADetachedFileHasNoControlCharacters) {
+  for (const std::string& name : {std::string("v.raw\0.txt", 10), std::string("v\x1b[2J.raw"), std::string("v\r.raw"), std::string("v\x7f.raw")}) {
+    const std::string message = refusal("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\ndata file: " + name + "\n");
+    EXPECT_THAT(message, HasSubstr("field 'data file': found 'v"));
+    EXPECT_THAT(message, HasSubstr("without control characters"));
+  }
+}
+
 TEST(NrrdHeader, SkipsAreWholeNumbers) {
   const NrrdHeader h = parse(cartesian("line skip: 2\nbyteskip: 7\n"));
   EXPECT_EQ(h.line_skip, 2);
