@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-24;
 constexpr double kDoubleEpsilon = 0x1p-48;  // of doubles, 2^-53, and of the reference's own rounding
-constexpr double kLeast = 1e-300;          // of m: all coefficients may be 0
+constexpr double kLeast = 1e-300;         // of m: all coefficients may be 0
 constexpr std::size_t kHugeWeight = 200;   // of the progress, in cases
 constexpr double kOwnRounding = 0x1p-44;  // of the double-precision spline, relative to its coefficients
 
@@ -47,16 +47,18 @@ EvaluationError evaluation_error(const Subject& subject, gpu::Device& device, co
   EvaluationError error;
   error.value_allowed = kernel_rounding(subject.spline);
   error.gradient_allowed = subject.spline.degree() * error.value_allowed;
-  const ValueUnit& unit = c.unit;
+  // In the unit of the rounded coefficients, so that doubles lose nothing to an offset either.
+  Coefficients<double> exact = subject.coefficients;
+  for (double& number : exact.data) number = c.unit.number(number);
   for (std::size_t n = 0; n < points.size(); ++n) {
     const glm::dvec3 u = glm::clamp(points[n], glm::dvec3(0.0), far);
     // In the middle of the cell that the kernel takes, so that a gradient that jumps is that of the same cell.
     const glm::dvec3 middle = glm::dvec3(cell_of(u, domain_max(c.lattice, c.extents))) + 0.5;
-    const Jet truth = subject.spline.evaluate(subject.coefficients, u + 1e-9 * (glm::min(middle, far) - u));
-    const double m = std::max(local_magnitude(subject.coefficients, u, unit.offset), kLeast), own = kOwnRounding * local_magnitude(subject.coefficients, u, 0.0);
+    const Jet truth = subject.spline.evaluate(exact, u + 1e-9 * (glm::min(middle, far) - u));
+    const double m = std::max(local_magnitude(exact, u, 0.0), kLeast), own = kOwnRounding * m;
     const auto off = [&](double found, double expected) { return std::max(std::abs(found - expected) - own, 0.0) / (kEpsilon * m); };
-    error.value = std::max(error.value, off(unit.value(jets[n].value), truth.value));
-    for (int a = 0; a < 3; ++a) error.gradient = std::max(error.gradient, off(unit.scale * jets[n].gradient[a], truth.gradient[a]));
+    error.value = std::max(error.value, off(jets[n].value, truth.value));
+    for (int a = 0; a < 3; ++a) error.gradient = std::max(error.gradient, off(jets[n].gradient[a], truth.gradient[a]));
   }
   return error;
 }
