@@ -60,9 +60,10 @@ real only_root(real b[N + 1]) {
     low = f > 0.0 ? x : low;
     high = f > 0.0 ? high : x;
     real next = x - f / slope;
-    converged = abs(next - x) < BY_PRECISION(1e-6, 1e-10lf);
-    next = converged ? clamp(next, 0.0, 1.0) : next;
-    x = (next >= low && next <= high) || converged ? next : 0.5 * (low + high);
+    // Only a fall leads to the root: where the value rises, near an end that is almost a second one, a short step would stay.
+    bool within = slope < 0.0 && next >= low && next <= high;
+    converged = (within && abs(next - x) < BY_PRECISION(1e-6, 1e-10lf)) || high - low < BY_PRECISION(1e-7, 1e-15lf);
+    x = within ? next : 0.5 * (low + high);
   }
   return x;
 }

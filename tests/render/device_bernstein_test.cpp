@@ -150,6 +150,22 @@ TEST_P(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
   expect_right(polynomials);
 }
 
+TEST_P(DeviceBernsteinTest, FindsTheRootBeforeAnEndAtWhichTheValueIsAlmostZero) {
+  // (r - x)(1 + e - x) with the second root just behind the end: there the value is 0 but for a few roundings, and is no root.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Polynomial> polynomials;
+  for (int k = 0; k < 3000; ++k) {
+    const double r = 0.1 + 0.8 * uniform(random), e = std::pow(10.0, -8.0 + 3.0 * uniform(random)), tilt = 0.9 * uniform(random);
+    std::vector<double> p = product({r, r - 1.0}, {1.0 + e, e});
+    for (int i = 2; i < GetParam(); ++i) p = product(p, {1.0, 1.0 - tilt});
+    polynomials.push_back(narrow(p, 1.0));
+  }
+  expect_right(polynomials);
+  const std::vector<float> roots = device_roots(polynomials);
+  for (const float root : roots) EXPECT_LT(root, 0.91f);
+}
+
 TEST_P(DeviceBernsteinTest, SeesNoRootWhereOneIsJustMissed) {
   // (x - r)^2 + e with e beyond doubt.
   std::mt19937 random(4);
