@@ -88,11 +88,12 @@ std::string csv_text(const std::string& text) {
 
 void append_html(std::string& page, const StabilitySection& section) {
   page += fmt::format("<h2>{}</h2>\n<p>{}</p>\n<div class=\"wide\"><table>\n<thead><tr>", escaped(section.title), escaped(section.caption));
-  for (const std::string& heading : section.table.headings) page += fmt::format("<th>{}</th>", escaped(heading));
+  const auto kind = [&](std::size_t column) { return column < section.table.left ? " class=\"text\"" : ""; };
+  for (std::size_t n = 0; n < section.table.headings.size(); ++n) page += fmt::format("<th{}>{}</th>", kind(n), escaped(section.table.headings[n]));
   page += "</tr></thead>\n<tbody>\n";
   for (const auto& row : section.table.rows) {
     page += row.back() == "pass" ? "<tr>" : "<tr class=\"fail\">";
-    for (std::size_t n = 0; n < row.size(); ++n) page += fmt::format("<td{}>{}</td>", n < section.table.left ? " class=\"text\"" : "", escaped(row[n]));
+    for (std::size_t n = 0; n < row.size(); ++n) page += fmt::format("<td{}>{}</td>", kind(n), escaped(row[n]));
     page += "</tr>\n";
   }
   page += "</tbody></table></div>\n";
@@ -102,7 +103,7 @@ constexpr const char* kStyle =
     "body{font:15px/1.5 system-ui,sans-serif;max-width:84rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}"
     "code{background:#f2f2f2;padding:.1em .3em}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}"
     "th,td{padding:.2em .6em;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}th{position:sticky;top:0;background:#fff;border-bottom:2px solid #888}"
-    "td.text{text-align:left}tr.fail td{background:#fde0dc}tbody tr:hover td{background:#eef4fb}";
+    ".text{text-align:left}tr.fail td{background:#fde0dc}tbody tr:hover td{background:#eef4fb}";
 
 }  // namespace
 

@@ -224,9 +224,9 @@ TEST_F(DevicePrecisionTest, DoublesShowTheSameWhateverIsSkipped) {
       const Frame truth = renderer.render(request, stats);
       int turn = 0;
       for (const std::string_view label : skip_labels()) {
-        if (label == "none") continue;
-        request.skip = labelled_skip(label, {.block = 2 << (n + turn) % 4, .cell_test = (n + turn) % 2 == 0});
-        ++turn;
+        // Half of the structures each time, in turns: kernels of doubles take long to compile.
+        if (label == "none" || (n + turn++) % 2 == 0) continue;
+        request.skip = labelled_skip(label, {.block = 2 << (n + turn) % 4, .cell_test = (n + turn) / 2 % 2 == 0});
         SCOPED_TRACE(spline + ", " + c.name + ", " + std::string(label));
         expect_same_picture(renderer.render(request, stats), truth);
       }
