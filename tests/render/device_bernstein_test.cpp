@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "render/device_probe.h"
 #include "render/roots.h"
-#include "shaders/shaders.h"
 #include "tests/render/device_fixture.h"
 
 namespace quincunx {
@@ -12,38 +12,13 @@ namespace {
 
 using Polynomial = std::vector<float>;  // Bernstein coefficients on [0,1], the first one positive
 
-constexpr const char* kKernel = R"(#version 460
-#extension GL_GOOGLE_include_directive : require
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Polynomials { float coefficient[]; };
-layout(std430, binding = 1) writeonly buffer Roots { float root[]; };
-#include "real.glsl"
-#include "bernstein.glsl"
-void main() {
-  uint n = gl_GlobalInvocationID.x;
-  if (n >= root.length()) return;
-  float b[SPLINE_DEGREE + 1];
-  for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = coefficient[(SPLINE_DEGREE + 1) * n + i];
-  root[n] = first_root(b);
-})";
-
 /// The degrees along a ray: trilinear, bcc7, tricubic.
 class DeviceBernsteinTest : public DeviceTest, public ::testing::WithParamInterface<int> {
  protected:
   std::vector<float> device_roots(const std::vector<Polynomial>& polynomials) const {
-    gpu::Device& device = test_kernels()->device();
-    const auto files = [](std::string_view name) { return name == "test.comp" ? std::string_view(kKernel) : shader_file(name); };
-    const gpu::KernelSource source{"test.comp", {{"SPLINE_DEGREE", std::to_string(GetParam())}}};
-    const gpu::Pipeline pipeline = gpu::create_pipeline(device, gpu::compile(device, files, source));
     std::vector<float> all;
     for (const Polynomial& b : polynomials) all.insert(all.end(), b.begin(), b.end());
-    const gpu::Buffer in = gpu::create_buffer(device, all.size() * sizeof(float), gpu::BufferUse::storage, "polynomials");
-    const gpu::Buffer out = gpu::create_buffer(device, polynomials.size() * sizeof(float), gpu::BufferUse::storage, "roots");
-    gpu::upload(device, in, std::as_bytes(std::span(all)));
-    gpu::dispatch(device, pipeline, {{"Polynomials", in}, {"Roots", out}}, {}, std::uint32_t((polynomials.size() + 63) / 64));
-    std::vector<float> roots(polynomials.size());
-    gpu::download(device, out, std::as_writable_bytes(std::span(roots)));
-    return roots;
+    return probe_roots(test_kernels()->device(), GetParam(), all);
   }
 
   void expect_right(const std::vector<Polynomial>& polynomials) const;
