@@ -8,6 +8,7 @@
 #include "app/flags.h"
 #include "app/values.h"
 #include "lattice/error.h"
+#include "lattice/quote.h"
 
 namespace quincunx {
 
@@ -15,10 +16,10 @@ NanPolicy parse_nan_policy(std::string_view text, std::string_view flag) {
   constexpr std::string_view kFill = "fill=";
   if (text == "refuse") return {};
   if (text == "empty") return {NanPolicy::Kind::empty, 0.0};
-  if (!text.starts_with(kFill)) throw InputError(fmt::format("{}: found '{}', expected refuse, empty or fill=V", flag, text));
+  if (!text.starts_with(kFill)) throw InputError(fmt::format("{}: found {}, expected refuse, empty or fill=V", flag, in_quotes(text)));
   const double value = parse_number(text.substr(kFill.size()), flag);
   if (std::abs(value) > double(std::numeric_limits<float>::max()))
-    throw InputError(fmt::format("{}: found '{}', expected a value that a 32-bit float holds", flag, text));
+    throw InputError(fmt::format("{}: found {}, expected a value that a 32-bit float holds", flag, in_quotes(text)));
   return {NanPolicy::Kind::fill, value};
 }
 
