@@ -29,7 +29,7 @@ namespace {
 
 struct Row {
   std::string_view spline;
-  double gain;  ///< the sum of |weights| of the prefilter: how far from the middle of the samples coefficients may be
+  double net_gain;  ///< how far from the middle of the coefficients' range the net may be, in halves of it: 1 for a generator nowhere negative
   Margin (*margin)(double displacement);
   void (*compute)(const Coefficients<float>& c, const BoundsScale& scale, Surroundings surroundings,
                   const Progress& progress, CellBounds& bounds);
@@ -37,9 +37,9 @@ struct Row {
 
 /// The one list of splines that have bounds.
 constexpr Row kRows[] = {
-    {"bcc7", 13.0 / 6.0, bcc7_margin, bcc7_bounds},
+    {"bcc7", 1.0, bcc7_margin, bcc7_bounds},
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
-    {"tricubic", 125.0 / 27.0, tricubic_margin, tricubic_bounds},
+    {"tricubic", 1.0, tricubic_margin, tricubic_bounds},
 };
 
 const Row& row_of(const Spline& spline) {
@@ -73,13 +73,14 @@ Range coefficient_range(const std::vector<float>& data) {
 }
 
 /// The scale on which value(0) and value(65535) enclose every widened interval of coefficients from `least` to `most`: the net's values
-/// are means of them, computed within 32 e m, and the margin grows with widths and magnitude.
+/// are within net_gain of them, computed within 32 e m, and the margin grows with widths and magnitude.
 BoundsScale scale_of(const Row& row, double least, double most, const glm::i64vec3& cells) {
   BoundsScale scale;
   scale.least = least, scale.most = most, scale.displacement = displacement(cells);
   const Margin margin = row.margin(scale.displacement);
   const double m = std::max(std::abs(least), std::abs(most)), rounding = 64.0 * kBoundsEpsilon * m;
-  const double around = (margin.per_width + margin.per_near_width) * (most - least + rounding) + margin.per_magnitude * m +
+  const double beyond = 0.5 * (row.net_gain - 1.0) * (most - least);
+  const double around = beyond + (margin.per_width + margin.per_near_width) * (most - least + rounding) + margin.per_magnitude * m +
                         rounding + 2.0 * kBoundsTiny;
   scale.low = least - around;
   scale.step = (most + around - scale.low) / 65535.0;
@@ -113,11 +114,11 @@ CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const
   return bounds_on(row, c, scale, Surroundings::border, progress);
 }
 
-BoundsScale bounds_scale(const Spline& spline, double sample_min, double sample_max, const glm::i64vec3& cells) {
+BoundsScale bounds_scale(const Spline& spline, Spline::Prefilter prefilter, double sample_min, double sample_max, const glm::i64vec3& cells) {
   assert(sample_min <= sample_max);
   const Row& row = row_of(spline);
   // The weights sum to 1. Coefficients are rounded to floats, below 2 e m of what the samples' largest can make.
-  const double middle = 0.5 * (sample_min + sample_max), half = 0.5 * (sample_max - sample_min) * row.gain;
+  const double middle = 0.5 * (sample_min + sample_max), half = 0.5 * (sample_max - sample_min) * spline.filter(prefilter).gain;
   const double rounding = 2.0 * kBoundsEpsilon * (std::abs(middle) + half);
   return scale_of(row, middle - half - rounding, middle + half + rounding, cells);
 }

@@ -41,9 +41,9 @@ double kernel_rounding(const Spline& spline);
 /// The largest distance (1-norm, cells) between a point that a kernel means and the one it computes, in a volume of so many cells.
 double ray_displacement(const glm::i64vec3& cells);
 
-/// The scale for any coefficients that the spline's prefilter, or none, can make of samples from `sample_min` to `sample_max`, and for
+/// The scale for any coefficients that a prefilter of the spline can make of samples from `sample_min` to `sample_max`, and for
 /// a volume of `cells` (cell_count of all of it).
-BoundsScale bounds_scale(const Spline& spline, double sample_min, double sample_max, const glm::i64vec3& cells);
+BoundsScale bounds_scale(const Spline& spline, Spline::Prefilter prefilter, double sample_min, double sample_max, const glm::i64vec3& cells);
 
 /// Bounds on `scale` over the cells of a box cut out of a volume, certain for each cell whose coefficients are the volume's: those that
 /// reach it, no farther, all within the box's extents. What is outside the box may be anything that the scale allows.

@@ -124,7 +124,7 @@ StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline,
   bounds.samples = known ? *known : sample_range(source, [&](double fraction) { report(progress, kRangePart * fraction); });
   check_finite(bounds.samples, header, what);
   bounds.unit = float_unit(header.type(), bounds.samples.min, bounds.samples.max);
-  bounds.scale = bounds_scale(spline, bounds.unit.number(bounds.samples.min), bounds.unit.number(bounds.samples.max), cell_count(header.lattice, header.extents));
+  bounds.scale = bounds_scale(spline, prefilter, bounds.unit.number(bounds.samples.min), bounds.unit.number(bounds.samples.max), cell_count(header.lattice, header.extents));
   bounds.blocks = small_blocks({source, spline, prefilter, bounds.unit, bounds.scale}, std::min(block, kMostBlock),
                                [&](double fraction) { report(progress, kRangePart + (1.0 - kRangePart) * fraction); });
   if (block > kMostBlock) bounds.blocks = coarser(bounds.blocks, block);

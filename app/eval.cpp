@@ -15,6 +15,7 @@
 #include "app/flags.h"
 #include "app/nan_flag.h"
 #include "app/points_file.h"
+#include "app/spline_flags.h"
 #include "app/volume_input.h"
 #include "spline/spline.h"
 
@@ -25,8 +26,9 @@ enum class Precision { exact_double, single_float };
 
 struct EvalFlags {
   std::string volume, points;
+  std::string spline;  ///< empty: that of the volume's lattice
   Precision precision = Precision::exact_double;
-  Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+  Spline::Prefilter prefilter = Spline::Prefilter::automatic;
   NanPolicy nan;
   Verbosity verbosity = Verbosity::normal;
 };
@@ -42,7 +44,7 @@ class WorldSpline {
  public:
   /// Makes the volume's samples finite.
   WorldSpline(Volume& volume, const EvalFlags& flags, const Progress& progress)
-      : spline_(make_spline("bcc7")),
+      : spline_(make_spline(flags.spline, volume.lattice)),
         precision_(flags.precision),
         origin_(volume.world.origin),
         inverse_axes_(glm::inverse(volume.world.axes)),
@@ -103,7 +105,7 @@ void eval(const EvalFlags& flags) {
   constexpr std::size_t chunk = 8192;
   ProgressBar bar(flags.verbosity);
   const std::uint64_t count = count_points(flags.points);
-  Volume volume = read_bcc_volume(flags.volume, bar.stage("reading"), flags.nan);
+  Volume volume = read_finite_volume(flags.volume, bar.stage("reading"), flags.nan);
   const WorldSpline spline(volume, flags, bar.stage("prefilter"));
 
   const Progress progress = bar.stage("evaluating");
@@ -137,15 +139,14 @@ Command eval_command(CLI::App& program) {
       "--precision double: coefficients and evaluation in double, the reference that kernels are compared with.\n"
       "--precision float: coefficients and weights rounded to 32-bit floats, multiplied and added in floats; the\n"
       "  weights are found in double, so this is the least that single precision loses, not a kernel's own order.");
-  app->add_option("VOLUME", flags->volume, "NRRD file of a BCC volume")->required();
+  app->add_option("VOLUME", flags->volume, "NRRD file")->required();
   app->add_option("--points", flags->points, "CSV file of points x,y,z (world), with or without a header line")
       ->type_name("P.csv")
       ->required();
   add_choice(*app, "--precision", flags->precision,
              {{"double", Precision::exact_double}, {"float", Precision::single_float}}, "Of coefficients and sums");
-  app->add_flag_callback(
-      "--no-prefilter", [flags] { flags->prefilter = Spline::Prefilter::none; },
-      "Take the samples themselves as coefficients");
+  add_spline(*app, flags->spline);
+  add_prefilter(*app, flags->prefilter);
   add_nan(*app, flags->nan);
   add_quiet(*app, flags->verbosity);
   return {app, [flags] { eval(*flags); }};

@@ -11,6 +11,7 @@
 
 #include "app/flags.h"
 #include "app/nan_flag.h"
+#include "app/spline_flags.h"
 #include "app/values.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
@@ -94,16 +95,13 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   const std::string group = "Method";
   add_intersect(app, flags)->group(group);
   add_step(app, flags)->group(group);
-  add_spline(app, flags)->group(group);
+  add_spline(app, flags.config.spline)->group(group);
+  add_prefilter(app, flags.config.prefilter)->group(group);
   add_precision(app, flags)->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
              "The spline's gradient, or central differences")
       ->group(group);
   add_number(app, "--delta", flags.scene.delta, {1e-3, 1e2}, "Of central, in cells")->group(group);
-  app.add_flag_callback(
-         "--no-prefilter", [&flags] { flags.config.prefilter = Spline::Prefilter::none; },
-         "Take the samples themselves as coefficients")
-      ->group(group);
   add_nan(app, flags.config.nan)->group(group);
   add_skip_flags(app, flags.skip, group);
   const auto pool = [&flags](const std::string& text) { flags.config.pool_bytes = parse_bytes(text, "--pool"); };
@@ -185,10 +183,6 @@ CLI::Option* add_step(CLI::App& app, RenderFlags& flags) {
     if (!(flags.step >= 1e-3 && flags.step <= 1e3)) throw InputError(fmt::format("--step: found {}, expected a number from 0.001 to 1000", text));
   };
   return add_parsed(app, "--step", step, "NUMBER", "0.25 of march, 1 of a volume", "Of march and of volumes, in cells");
-}
-
-CLI::Option* add_spline(CLI::App& app, RenderFlags& flags) {
-  return app.add_option("--spline", flags.config.spline, "Reconstruction: bcc7; trilinear, tricubic for Cartesian volumes")->type_name("SPLINE");
 }
 
 CLI::Option* add_precision(CLI::App& app, RenderFlags& flags) {

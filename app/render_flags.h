@@ -43,11 +43,10 @@ bool is_exr(const std::string& path);
 
 void add_render_flags(CLI::App& app, RenderFlags& flags);
 
-/// Those of them that other commands have too: "--iso", several values; "--intersect" and "--step"; "--spline"; "--precision".
+/// Those of them that other commands have too: "--iso", several values; "--intersect" and "--step"; "--precision".
 CLI::Option* add_isovalues(CLI::App& app, RenderFlags& flags);
 CLI::Option* add_intersect(CLI::App& app, RenderFlags& flags);
 CLI::Option* add_step(CLI::App& app, RenderFlags& flags);
-CLI::Option* add_spline(CLI::App& app, RenderFlags& flags);
 CLI::Option* add_precision(CLI::App& app, RenderFlags& flags);
 
 /// Throws InputError where nothing is to be seen: neither an isovalue nor a transfer function.

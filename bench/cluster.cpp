@@ -47,7 +47,7 @@ void measure_volume(const ClusterFlags& flags, const std::string& path, double i
   const std::string name = std::filesystem::path(path).stem().string();
   const Volume volume = read_bcc_volume(path, bar.stage("reading"));
   const auto spline = make_spline("bcc7");
-  const auto coefficients = spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation, {}, bar.stage("prefilter"));
+  const auto coefficients = spline->coefficients_float(volume, Spline::Prefilter::automatic, {}, bar.stage("prefilter"));
   const CellBounds cells = cell_bounds(*spline, coefficients, bar.stage("bounds"));
   const Progress progress = bar.stage(name);
   for (std::size_t n = 0; n < flags.blocks.size(); ++n) {

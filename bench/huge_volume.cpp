@@ -65,7 +65,7 @@ StabilityLine measure_huge(const std::string& name, const std::shared_ptr<Kernel
   RenderStats stats;
   const Frame frame = renderer.render(request, stats, progress);
 
-  const Coefficients<double> coefficients = spline->coefficients(source->corner(), Spline::Prefilter::quasi_interpolation);
+  const Coefficients<double> coefficients = spline->coefficients(source->corner(), Spline::Prefilter::automatic);
   StabilityLine line;
   line.group = "index";
   line.name = "sample numbers beyond 2^31, through bricks";

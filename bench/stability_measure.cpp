@@ -102,9 +102,9 @@ StabilityLine measure_case(const StabilityCase& c, const std::string& name, cons
     doubles.emplace(kernels, subject.volume, config);
   }
   const VoidCells voids = make_finite(subject.volume, *spline, c.nan);
-  subject.coefficients = spline->coefficients(subject.volume, Spline::Prefilter::quasi_interpolation);
+  subject.coefficients = spline->coefficients(subject.volume, Spline::Prefilter::automatic);
   const SampleRange range = sample_range(subject.volume);
-  subject.rounded = spline->coefficients_float(subject.volume, Spline::Prefilter::quasi_interpolation, float_unit(c.type, range.min, range.max));
+  subject.rounded = spline->coefficients_float(subject.volume, Spline::Prefilter::automatic, float_unit(c.type, range.min, range.max));
   const double shift = value_rounding(subject.coefficients);
   // Bounds of the rounded coefficients are those of the values where they are rounded as they are.
   const CellBounds bounds = cell_bounds(*spline, subject.rounded);

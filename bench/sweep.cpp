@@ -13,6 +13,7 @@
 #include "app/flags.h"
 #include "app/nan_flag.h"
 #include "app/render_flags.h"
+#include "app/spline_flags.h"
 #include "app/values.h"
 #include "app/volume_input.h"
 #include "bench/gnuplot.h"
@@ -149,7 +150,8 @@ void add_scene_flags(CLI::App& app, RenderFlags& flags) {
   add_size(app, flags.scene.width, flags.scene.height);
   add_intersect(app, flags);
   add_step(app, flags);
-  add_spline(app, flags);
+  add_spline(app, flags.config.spline);
+  add_prefilter(app, flags.config.prefilter);
   add_nan(app, flags.config.nan);
   add_precision(app, flags);
   add_volume_flags(app, flags.look);

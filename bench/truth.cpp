@@ -7,8 +7,8 @@ namespace quincunx {
 
 Truth::Truth(const Volume& volume, const Progress& progress)
     : spline_(make_spline("bcc7")),
-      coefficients_(spline_->coefficients(volume, Spline::Prefilter::quasi_interpolation, progress)),
-      cells_(cell_bounds(*spline_, spline_->coefficients_float(volume, Spline::Prefilter::quasi_interpolation), progress)) {}
+      coefficients_(spline_->coefficients(volume, Spline::Prefilter::automatic, progress)),
+      cells_(cell_bounds(*spline_, spline_->coefficients_float(volume, Spline::Prefilter::automatic), progress)) {}
 
 Frame Truth::frame(Scene scene, const Progress& progress) const {
   scene.intersect = Intersect::exact;

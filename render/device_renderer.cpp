@@ -43,7 +43,7 @@ bool same_table(const DirectVolume& a, const DirectVolume& b) {
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volume& volume, const Config& config, const DeviceLimits& limits)
     : kernels_(std::move(kernels)), device_(kernels_->device()), config_(config), limits_(limits),
-      spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume), skipping_(std::in_place, device_) {
+      spline_(make_spline(config.spline, volume.lattice)), volume_(volume), skipping_(std::in_place, device_) {
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
@@ -133,8 +133,8 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
   const std::string label = completed.skip.structure == "none" ? "none" : fmt::format("{}, blocks of {} cells", skip_label(completed.skip), completed.skip.block);
   for (Feature& feature : features)
     if (feature.name == kSkipPart && !choice.why.empty()) feature.why = fmt::format("{}: {}", label, choice.why);
-  features.push_back({"prefilter pass", config_.prefilter != Spline::Prefilter::none,
-                      config_.prefilter != Spline::Prefilter::none ? "quasi-interpolation of full order" : "--no-prefilter: the samples are the coefficients"});
+  const Spline::Prefilter prefilter = spline_->filter(config_.prefilter).kind;
+  features.push_back({"prefilter pass", prefilter != Spline::Prefilter::none, fmt::format("{} of {}", prefilter_name(prefilter), spline_->name())});
   return features;
 }
 

@@ -8,7 +8,7 @@
 
 namespace quincunx {
 ReferenceRenderer::ReferenceRenderer(const Volume& volume, const Config& config)
-    : config_(config), spline_(make_spline(config.spline.empty() ? default_spline(volume.lattice) : config.spline)), volume_(volume) {}
+    : config_(config), spline_(make_spline(config.spline, volume.lattice)), volume_(volume) {}
 
 Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);

@@ -16,13 +16,11 @@ namespace quincunx {
 
 namespace {
 
-/// `wanted` with its spline's name, which is one of the volume's lattice.
+/// `wanted` with the name of its spline, which is one of the volume's lattice and has the prefilter.
 Renderer::Config with_spline(Renderer::Config wanted, LatticeKind lattice) {
-  if (wanted.spline.empty()) wanted.spline = default_spline(lattice);
-  const std::unique_ptr<Spline> spline = make_spline(wanted.spline);
-  if (lattice != spline->lattice())
-    throw InputError(fmt::format("--spline: found a volume on the {} lattice, expected {}, the lattice of {}", lattice_name(lattice),
-                                 lattice_name(spline->lattice()), wanted.spline));
+  const std::unique_ptr<Spline> spline = make_spline(wanted.spline, lattice);
+  spline->filter(wanted.prefilter);
+  wanted.spline = spline->name();
   return wanted;
 }
 

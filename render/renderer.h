@@ -60,7 +60,7 @@ class Renderer {
  public:
   struct Config {
     std::string spline;  ///< a name of spline_names(); empty: default_spline of the volume's lattice
-    Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation;
+    Spline::Prefilter prefilter = Spline::Prefilter::automatic;
     NanPolicy nan;       ///< what becomes of samples that are not finite
     Precision precision = Precision::float32;  ///< of the kernels; float64 not with a pool. "cpu" computes in doubles in any case
     std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them

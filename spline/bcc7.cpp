@@ -57,9 +57,7 @@ glm::i64vec3 index_of(const glm::ivec3& point, int coset) {
   return (glm::i64vec3(point) - std::int64_t(coset)) / std::int64_t(2);
 }
 
-const BccMask& mask_of(Spline::Prefilter prefilter) {
-  return prefilter == Spline::Prefilter::none ? kIdentityMask : kBcc7Mask;
-}
+const BccMask& mask_of(const Spline::Filter& filter) { return filter.kind == Spline::Prefilter::none ? kIdentityMask : kBcc7Mask; }
 
 }  // namespace
 
@@ -139,11 +137,11 @@ void Bcc7::restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& 
 }
 
 Coefficients<double> Bcc7::coefficients(const Volume& volume, Prefilter prefilter, const Progress& progress) const {
-  return bcc_coefficients<double>(volume, mask_of(prefilter), apron(), name(), {}, progress);
+  return bcc_coefficients<double>(volume, mask_of(filter(prefilter)), apron(), name(), {}, progress);
 }
 
 Coefficients<float> Bcc7::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
-  return bcc_coefficients<float>(volume, mask_of(prefilter), apron(), name(), unit, progress);
+  return bcc_coefficients<float>(volume, mask_of(filter(prefilter)), apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

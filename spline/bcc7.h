@@ -18,7 +18,7 @@ class Bcc7 final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::bcc; }
   int degree() const override { return 4; }
   int apron() const override { return 1; }
-  int prefilter_reach() const override { return 1; }
+  std::span<const Filter> filters() const override { return kFilters; }
   std::string_view shader() const override { return "bcc7.glsl"; }
 
   Jet generator(const glm::dvec3& x) const override;
@@ -35,6 +35,9 @@ class Bcc7 final : public Spline {
   /// The Bernstein coefficients of the spline on a tetrahedron of the domain: c convolved with the net
   /// (bcc7_net.h), by exact integer weights in one fixed order and one scaling.
   static QuarticNet bernstein(const Coefficients<double>& c, const Tetrahedron& tetrahedron);
+
+ private:
+  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 13.0 / 6.0}, kNoFilter};
 };
 
 }  // namespace quincunx

@@ -32,7 +32,7 @@ void box_coefficients(const SampleSource& source, const Spline& spline, Spline::
                       std::span<float> out) {
   const Extents& extents = source.header().extents;
   const glm::i64vec3 last = extents - std::int64_t(1), zero(0);
-  const std::int64_t reach = prefilter == Spline::Prefilter::none ? 0 : spline.prefilter_reach();
+  const std::int64_t reach = spline.filter(prefilter).reach;
   // A side that the prefilter finds clamped is the volume's own, or too far from the box to matter.
   const glm::i64vec3 low = glm::max(glm::clamp(box.first, zero, last) - reach, zero);
   const glm::i64vec3 high = glm::min(glm::clamp(box.first + box.size - std::int64_t(1), zero, last) + reach, last) + std::int64_t(1);

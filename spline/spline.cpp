@@ -29,6 +29,26 @@ constexpr Row kSplines[] = {
 
 }  // namespace
 
+const Spline::Filter& Spline::filter(Prefilter wanted) const {
+  std::string choices;
+  for (const Filter& f : filters()) {
+    if (f.kind == wanted || wanted == Prefilter::automatic) return f;
+    choices += ", " + std::string(prefilter_name(f.kind));
+  }
+  throw InputError("--prefilter: found " + std::string(prefilter_name(wanted)) + ", expected one that the spline " + std::string(name()) +
+                   " has: auto" + choices);
+}
+
+std::string_view prefilter_name(Spline::Prefilter prefilter) {
+  switch (prefilter) {
+    case Spline::Prefilter::automatic: return "auto";
+    case Spline::Prefilter::none: return "none";
+    case Spline::Prefilter::fir: return "fir";
+    case Spline::Prefilter::iir: return "iir";
+  }
+  return "";
+}
+
 const std::vector<std::string_view>& spline_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
@@ -46,6 +66,13 @@ std::unique_ptr<Spline> make_spline(std::string_view name) {
   std::string choices;
   for (const std::string_view known : spline_names()) choices += (choices.empty() ? "" : ", ") + std::string(known);
   throw InputError("spline '" + std::string(name) + "' is unknown; expected one of: " + choices);
+}
+
+std::unique_ptr<Spline> make_spline(std::string_view name, LatticeKind lattice) {
+  std::unique_ptr<Spline> spline = make_spline(name.empty() ? default_spline(lattice) : name);
+  if (spline->lattice() == lattice) return spline;
+  throw InputError("--spline: found a volume on the " + std::string(lattice_name(lattice)) + " lattice, expected " +
+                   std::string(lattice_name(spline->lattice())) + ", the lattice of " + std::string(name));
 }
 
 }  // namespace quincunx

@@ -22,6 +22,18 @@ struct Jet {
 /// Its double-precision functions here are the reference that every kernel is compared with.
 class Spline {
  public:
+  /// What makes coefficients of samples: the one of full approximation order (automatic); nothing, the samples are the coefficients
+  /// (none); quasi-interpolation by a mask of few samples (fir); interpolation of the samples, whose mask has no end (iir).
+  enum class Prefilter { automatic, none, fir, iir };
+  struct Filter {
+    Prefilter kind;
+    /// A coefficient depends on the samples whose indices, in either coset, differ from its own by at most this along each axis.
+    int reach;
+    /// The sum of its |weights|: how far from the middle of the samples' range coefficients may be, in halves of it.
+    double gain;
+  };
+  static constexpr Filter kNoFilter{Prefilter::none, 0, 1.0};
+
   virtual ~Spline() = default;
 
   virtual std::string_view name() const = 0;
@@ -31,9 +43,10 @@ class Spline {
   /// Samples of border that the stencil reaches beyond the domain, per side of each coset. Coefficients may have more:
   /// those of a Cartesian volume with an axis of one sample have one more, for that axis's one cell (cell_count).
   virtual int apron() const = 0;
-  /// A coefficient depends on the samples whose indices, in either coset, differ from its own by at most this along each
-  /// axis; without prefilter on its own sample alone.
-  virtual int prefilter_reach() const = 0;
+  /// The prefilters that it has: the one of Prefilter::automatic first, `none` last.
+  virtual std::span<const Filter> filters() const = 0;
+  /// The one of that kind; throws InputError (--prefilter) naming those it has.
+  const Filter& filter(Prefilter wanted) const;
   /// The GLSL twin, a file of shaders/.
   virtual std::string_view shader() const = 0;
 
@@ -53,16 +66,18 @@ class Spline {
   virtual void restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& a,
                                    const glm::dvec3& b, std::span<double> bernstein) const = 0;
 
-  /// Coefficients whose spline quasi-interpolates the samples with the spline's full approximation order, or the samples themselves
-  /// (`Prefilter::none`). Computed in double, each by the same operations wherever it stands: those of a box cut out of the
-  /// volume, prefilter_reach() wider, are the volume's to the last bit. Throws InputError on NaN or infinite samples (count and first place).
-  enum class Prefilter { none, quasi_interpolation };
+  /// What the prefilter makes of the samples. Computed in double, each coefficient by the same operations wherever it stands: those of a box cut
+  /// out of the volume, wider by the filter's reach, are the volume's to the last bit. Throws InputError for a prefilter that the spline does
+  /// not have and on NaN or infinite samples (count and first place).
   virtual Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                             const Progress& progress = {}) const = 0;
   /// The same in `unit`, each rounded to float once.
   virtual Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
                                                  const Progress& progress = {}) const = 0;
 };
+
+/// As --prefilter names them.
+std::string_view prefilter_name(Spline::Prefilter prefilter);
 
 /// The names make_spline knows.
 const std::vector<std::string_view>& spline_names();
@@ -72,5 +87,8 @@ std::string_view default_spline(LatticeKind lattice);
 
 /// The spline of that name; throws InputError naming the choices.
 std::unique_ptr<Spline> make_spline(std::string_view name);
+
+/// The same for a volume on `lattice`, empty: its default_spline. Throws InputError (--spline) for one of the other lattice.
+std::unique_ptr<Spline> make_spline(std::string_view name, LatticeKind lattice);
 
 }  // namespace quincunx

@@ -88,8 +88,8 @@ void add_product(const std::array<double, N>& p, const Four& q, std::array<doubl
     for (std::size_t m = 0; m < 4; ++m) sum[n + m] += p[n] * q[m];
 }
 
-const AxisMask& mask_of(Spline::Prefilter prefilter) {
-  return prefilter == Spline::Prefilter::none ? kIdentityAxisMask : kCubicAxisMask;
+const AxisMask& mask_of(const Spline::Filter& filter) {
+  return filter.kind == Spline::Prefilter::none ? kIdentityAxisMask : kCubicAxisMask;
 }
 
 }  // namespace
@@ -150,11 +150,11 @@ void Tricubic::restrict_to_segment(const Coefficients<double>& c, const glm::ive
 
 Coefficients<double> Tricubic::coefficients(const Volume& volume, Prefilter prefilter,
                                             const Progress& progress) const {
-  return cartesian_coefficients<double>(volume, mask_of(prefilter), apron(), name(), {}, progress);
+  return cartesian_coefficients<double>(volume, mask_of(filter(prefilter)), apron(), name(), {}, progress);
 }
 
 Coefficients<float> Tricubic::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
-  return cartesian_coefficients<float>(volume, mask_of(prefilter), apron(), name(), unit, progress);
+  return cartesian_coefficients<float>(volume, mask_of(filter(prefilter)), apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

@@ -13,7 +13,7 @@ class Tricubic final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::cartesian; }
   int degree() const override { return 9; }
   int apron() const override { return 1; }
-  int prefilter_reach() const override { return 1; }
+  std::span<const Filter> filters() const override { return kFilters; }
   std::string_view shader() const override { return "tricubic.glsl"; }
 
   Jet generator(const glm::dvec3& x) const override;
@@ -27,6 +27,9 @@ class Tricubic final : public Spline {
                                     const Progress& progress = {}) const override;
   Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
                                          const Progress& progress = {}) const override;
+
+ private:
+  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 125.0 / 27.0}, kNoFilter};
 };
 
 }  // namespace quincunx

@@ -66,11 +66,13 @@ void Trilinear::restrict_to_segment(const Coefficients<double>& c, const glm::iv
   bernstein[3] = value(f, b.x, b.y, b.z);
 }
 
-Coefficients<double> Trilinear::coefficients(const Volume& volume, Prefilter, const Progress& progress) const {
+Coefficients<double> Trilinear::coefficients(const Volume& volume, Prefilter prefilter, const Progress& progress) const {
+  filter(prefilter);
   return cartesian_coefficients<double>(volume, kIdentityAxisMask, apron(), name(), {}, progress);
 }
 
-Coefficients<float> Trilinear::coefficients_float(const Volume& volume, Prefilter, const ValueUnit& unit, const Progress& progress) const {
+Coefficients<float> Trilinear::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
+  filter(prefilter);
   return cartesian_coefficients<float>(volume, kIdentityAxisMask, apron(), name(), unit, progress);
 }
 

@@ -14,7 +14,7 @@ class Trilinear final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::cartesian; }
   int degree() const override { return 3; }
   int apron() const override { return 0; }
-  int prefilter_reach() const override { return 0; }
+  std::span<const Filter> filters() const override { return kFilters; }
   std::string_view shader() const override { return "trilinear.glsl"; }
 
   Jet generator(const glm::dvec3& x) const override;
@@ -24,11 +24,14 @@ class Trilinear final : public Spline {
              std::vector<double>&) const override {}
   void restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& a,
                            const glm::dvec3& b, std::span<double> bernstein) const override;
-  /// The samples, whatever the prefilter: they are interpolated.
+  /// The samples: they are interpolated.
   Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
                                     const Progress& progress = {}) const override;
   Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
                                          const Progress& progress = {}) const override;
+
+ private:
+  static constexpr Filter kFilters[] = {kNoFilter};
 };
 
 }  // namespace quincunx

@@ -222,7 +222,7 @@ Coefficients<float> cut_out(const Coefficients<float>& c, const glm::i64vec3& lo
 /// The least and the largest a sample may be for coefficients within those of c: what a prefilter that makes no new extremes has.
 BoundsScale scale_for(const Spline& spline, const Coefficients<float>& c) {
   const auto [low, high] = std::minmax_element(c.data.begin(), c.data.end());
-  return bounds_scale(spline, *low, *high, cell_count(c.lattice, c.extents));
+  return bounds_scale(spline, Spline::Prefilter::none, *low, *high, cell_count(c.lattice, c.extents));
 }
 
 /// The bounds of the cells of a box whose coefficients all lie in it: `inner` fewer than there are, on every side.
@@ -266,7 +266,7 @@ TEST(BoundsOfBoxes, OfTheQuarticAllowForRoundingOfTheLargestCoefficientThatMayBe
   // Zeros in a volume that goes up to a million: K = 512, which is more than a step of the 16 bits, so that it can be seen.
   const std::unique_ptr<Spline> spline = make_spline("bcc7");
   const Coefficients<float> zeros = make_coefficients({4, 4, 4}, [](int, const glm::i64vec3&) { return 0.0; });
-  const BoundsScale scale = bounds_scale(*spline, 0.0, 1e6, {99, 99, 99});
+  const BoundsScale scale = bounds_scale(*spline, Spline::Prefilter::automatic, 0.0, 1e6, {99, 99, 99});
   const double margin = 511.0 * 0x1p-24 * scale.most;
   ASSERT_GT(margin, scale.step);
   const CellBounds bounds = cell_bounds(*spline, zeros, scale);
@@ -292,8 +292,8 @@ TEST_P(Bounds, HaveAScaleForEverythingThatThePrefilterMakesOfSamplesAndLittleMor
     samples[n] = float(positive ? most : least);
   }
   volume.samples = samples;
-  const Coefficients<float> c = spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation);
-  const BoundsScale scale = bounds_scale(*spline, least, most, cell_count(lattice, volume.extents));
+  const Coefficients<float> c = spline->coefficients_float(volume, Spline::Prefilter::automatic);
+  const BoundsScale scale = bounds_scale(*spline, Spline::Prefilter::automatic, least, most, cell_count(lattice, volume.extents));
   const double largest = *std::max_element(c.data.begin(), c.data.end());
   EXPECT_LE(largest, scale.most);
   EXPECT_GT(largest, scale.most - 1e-3);

@@ -43,7 +43,7 @@ void for_each_case(const Check& check) {
   for (const std::string_view name : spline_names()) {
     const auto spline = make_spline(name);
     for (const Extents& extents : extents_of(spline->lattice()))
-      for (const Spline::Prefilter prefilter : {Spline::Prefilter::quasi_interpolation, Spline::Prefilter::none}) {
+      for (const Spline::Prefilter prefilter : {Spline::Prefilter::automatic, Spline::Prefilter::none}) {
         SCOPED_TRACE(std::string(name) + ", " + std::to_string(extents.x) + " samples along x");
         check(*spline, prefilter, waves(spline->lattice(), extents));
       }
@@ -91,11 +91,11 @@ TEST(StreamedBounds, AreThoseOfTheWholeVolumeAndLittleWider) {
 TEST(StreamedBounds, SayTheRangeOfTheSamplesAndTheScaleOfTheWholeVolume) {
   const auto spline = make_spline("bcc7");
   const Volume volume = waves(LatticeKind::bcc, {140, 40, 3});
-  const StreamedBounds bounds = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::quasi_interpolation, 8, "volume");
+  const StreamedBounds bounds = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::automatic, 8, "volume");
   const SampleRange samples = sample_range(volume);
   EXPECT_EQ(bounds.samples.min, samples.min);
   EXPECT_EQ(bounds.samples.max, samples.max);
-  const BoundsScale scale = bounds_scale(*spline, samples.min, samples.max, cell_count(volume.lattice, volume.extents));
+  const BoundsScale scale = bounds_scale(*spline, Spline::Prefilter::automatic, samples.min, samples.max, cell_count(volume.lattice, volume.extents));
   EXPECT_EQ(bounds.scale.low, scale.low);
   EXPECT_EQ(bounds.scale.step, scale.step);
   EXPECT_EQ(bounds.scale.displacement, scale.displacement);
@@ -123,7 +123,7 @@ TEST(StreamedBounds, ReadTheSamplesInBoxesOfBoundedSize) {
   const Volume volume{LatticeKind::cartesian, {700, 100, 70}, {}, std::vector<std::uint8_t>(4'900'000), {}};
   const WatchedSource source(volume);
   std::vector<double> fractions;
-  streamed_bounds(source, *make_spline("tricubic"), Spline::Prefilter::quasi_interpolation, 256, "volume",
+  streamed_bounds(source, *make_spline("tricubic"), Spline::Prefilter::automatic, 256, "volume",
                   [&](double fraction) { fractions.push_back(fraction); });
   EXPECT_LE(source.largest, std::size_t(521 * 73 * 73));  // 512 x 64 x 64 cells and 2 around, with corners, apron and the prefilter's reach
   EXPECT_GE(fractions.size(), 8u);

@@ -128,7 +128,7 @@ TEST(VoidCells, MakeNoBlockAndNoCellActiveWhateverCanBeSeen) {
     for (std::size_t n = 0; n < samples.size(); ++n)
       if (n / 9 / 8 % 10 < 5 && n % 9 > 3) samples[n] = n % 2 ? kNan : kInf;
     const VoidCells voids = make_finite(volume, *spline, {NanPolicy::Kind::empty, 0.0});
-    const CellBounds all = cell_bounds(*spline, spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation));
+    const CellBounds all = cell_bounds(*spline, spline->coefficients_float(volume, Spline::Prefilter::automatic));
     CellBounds cells = all;
     leave_out(voids, cells);
     for (const std::vector<ValueRange>& ranges : {std::vector<ValueRange>{{0.4, 0.4}}, {{-kAll, kAll}}, {{-kAll, 0.1}, {0.8, kAll}}, {}}) {

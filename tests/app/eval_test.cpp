@@ -78,7 +78,7 @@ TEST(Eval, AgreesWithTheSplineValueAndGradientInTheWorld) {
   ASSERT_EQ(found.size(), points.size());
 
   const auto spline = make_spline("bcc7");
-  const auto coefficients = spline->coefficients(volume, Spline::Prefilter::quasi_interpolation);
+  const auto coefficients = spline->coefficients(volume, Spline::Prefilter::automatic);
   for (std::size_t n = 0; n < points.size(); ++n) {
     ASSERT_EQ(glm::dvec3(found[n][0], found[n][1], found[n][2]), points[n]);
     const Jet jet = spline->evaluate(coefficients, volume.world.to_lattice(points[n]));
@@ -98,7 +98,7 @@ TEST(Eval, ReproducesALinearFieldAwayFromTheBorder) {
   write_volume(volume, folder / "v.nrrd");
   const auto points = random_points(world, glm::dvec3(5.0), glm::dvec3(10.0), 200);
   write_file(folder / "p.csv", csv(points));
-  for (const char* prefilter : {"--precision=double", "--no-prefilter"}) {
+  for (const char* prefilter : {"--precision=double", "--prefilter=none"}) {
     const auto found = rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", prefilter}).out);
     ASSERT_EQ(found.size(), points.size());
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -160,7 +160,7 @@ TEST(Eval, TakesTheSamplesAsCoefficientsWithoutThePrefilter) {
   write_file(folder / "p.csv", csv({volume.world.to_world(u)}));
   const auto spline = make_spline("bcc7");
   const auto coefficients = spline->coefficients(volume, Spline::Prefilter::none);
-  const auto found = rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--no-prefilter"}).out);
+  const auto found = rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--prefilter", "none"}).out);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0][3], spline->evaluate(coefficients, u).value, 1e-9);
 }

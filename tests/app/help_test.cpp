@@ -23,7 +23,7 @@ TEST(Help, OfRenderNamesEveryFlagAndTheSkippingStructuresThereAre) {
   const std::string help = run({"render", "--help"}).out;
   for (const std::string flag :
        {"-o,",          "--iso ",       "--color ",   "--opacity ",    "--skip ",         "--block ",    "--cell-test ",
-        "--intersect ", "--step ",      "--normal ",  "--delta ",      "--no-prefilter ", "--size ",     "--camera ",
+        "--intersect ", "--step ",      "--normal ",  "--delta ",      "--prefilter ", "--size ",     "--camera ",
         "--azimuth ",   "--elevation ", "--zoom ",    "--eye ",        "--target ",       "--up ",       "--fov ",
         "--device ",    "--stats ",     "--ambient ", "--background ", "--repeat ",       "--validate ", "--explain ",
         "--cost ",      "--quiet ",     "--json ",      "--nan "}) {

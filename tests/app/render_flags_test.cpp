@@ -22,7 +22,7 @@ TEST(RenderFlags, AreAllTakenTogether) {
       refusal_with({"--color",     "1,0,0",          "--color", "#00ff00",  "--color",  "0,0,1",       "--opacity",
                     "0.5,0.25,1",  "--skip",         "grid",    "--block",  "8",        "--cell-test", "off",
                     "--intersect", "march",          "--step",  "0.5",      "--normal", "central",     "--delta",
-                    "0.25",        "--no-prefilter", "--size",  "64",       "32",       "--azimuth",   "-30",
+                    "0.25",        "--prefilter=none", "--size",  "64",       "32",       "--azimuth",   "-30",
                     "--elevation", "-10.5",          "--zoom",  "2",        "--device", "cpu",         "--ambient",
                     "0.5",         "--background",   "#ffffff", "--repeat", "5",        "--cost",      "--validate",
                     "--explain",   "--quiet"}),

@@ -34,7 +34,7 @@ class JudgeTest : public ::testing::TestWithParam<std::string_view> {
             samples.push_back(float(100.0 - glm::dot(d, d)));
           }
     volume.samples = samples;
-    coefficients_ = spline_->coefficients(volume, Spline::Prefilter::quasi_interpolation);
+    coefficients_ = spline_->coefficients(volume, Spline::Prefilter::automatic);
     scene_.isosurfaces = {Isosurface{}};
     scene_.width = scene_.height = 40;
     scene_.camera = framing_camera(lattice, volume.extents, volume.world, {30.0, 20.0, 1.0}, 40, 40);
@@ -120,7 +120,7 @@ TEST(Judge, ExcusesWhatRoundingMayDecideAndNothingMore) {
       for (int j = 0; j < 32; ++j)
         for (int i = 0; i < 32; ++i) samples.push_back(float((i - 15.5) * (i - 15.5)));
     volume.samples = samples;
-    const auto coefficients = spline->coefficients(volume, Spline::Prefilter::quasi_interpolation);
+    const auto coefficients = spline->coefficients(volume, Spline::Prefilter::automatic);
     Scene scene;
     scene.width = scene.height = 4;
     scene.isosurfaces = {Isosurface{.isovalue = height}};

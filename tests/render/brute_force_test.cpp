@@ -124,7 +124,7 @@ TEST(BruteForce, FindsWhatTheExactCasterFindsInNoise) {
   std::mt19937 random(21);
   Tally total;
   for (unsigned seed = 0; seed < 4; ++seed) {
-    const auto prefilter = seed % 2 ? Spline::Prefilter::none : Spline::Prefilter::quasi_interpolation;
+    const auto prefilter = seed % 2 ? Spline::Prefilter::none : Spline::Prefilter::automatic;
     const Sampled noise(random_volume({7, 6, 8}, seed), prefilter);
     for (const double isovalue : {0.35, 0.5, 0.62}) {
       const Tally tally = compare(noise, isovalue, 300, random);

@@ -27,7 +27,7 @@ Frame picture_of(const Volume& volume, const Renderer::Request& request, Precisi
 
 Frame truth_of(const Volume& volume, const Scene& scene, const std::string& spline_name = "bcc7") {
   const std::unique_ptr<Spline> spline = make_spline(spline_name);
-  return render_reference(*spline, spline->coefficients(volume, Spline::Prefilter::quasi_interpolation), scene, nullptr);
+  return render_reference(*spline, spline->coefficients(volume, Spline::Prefilter::automatic), scene, nullptr);
 }
 
 /// How far a picture is from the reference.

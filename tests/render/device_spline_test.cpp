@@ -69,8 +69,8 @@ class DeviceSplineTest : public DeviceTest, public ::testing::WithParamInterface
     volume_.lattice = spline_->lattice();
     auto& samples = std::get<std::vector<float>>(volume_.samples);
     if (volume_.lattice == LatticeKind::cartesian) samples.resize(samples.size() / 2);
-    coefficients_ = spline_->coefficients_float(volume_, Spline::Prefilter::quasi_interpolation);
-    same_ = spline_->coefficients(volume_, Spline::Prefilter::quasi_interpolation);
+    coefficients_ = spline_->coefficients_float(volume_, Spline::Prefilter::automatic);
+    same_ = spline_->coefficients(volume_, Spline::Prefilter::automatic);
     same_.data.assign(coefficients_.data.begin(), coefficients_.data.end());
     cells_ = domain_max(volume_.lattice, volume_.extents);
   }

@@ -46,7 +46,7 @@ struct Ball {
         for (std::int64_t j = low.y; j < high.y; ++j)
           for (std::int64_t i = low.x; i < high.x; ++i)
             std::get<std::vector<std::uint8_t>>(v.samples).push_back(std::uint8_t(ball(step * glm::dvec3(i, j, k) + double(c), centre)));
-    coefficients = spline.coefficients_float(v, Spline::Prefilter::quasi_interpolation);
+    coefficients = spline.coefficients_float(v, Spline::Prefilter::automatic);
   }
   double distance_to(const BrickLayout& layout, const glm::ivec3& brick) const {
     const glm::dvec3 corner(brick * layout.edge);
@@ -123,13 +123,13 @@ void expect_streamed(std::string_view spline, const Extents& extents) {
   const SampleFile source(LargeVolume::path(), {});
   ASSERT_GT(source.header().sample_count(), std::size_t(1) << 32);
   const StreamedBounds bounds =
-      streamed_bounds(source, *volume.spline, Spline::Prefilter::quasi_interpolation, 16, LargeVolume::path());
+      streamed_bounds(source, *volume.spline, Spline::Prefilter::automatic, 16, LargeVolume::path());
   EXPECT_EQ(bounds.samples.min, 0.0);
 
   const BrickLayout layout(volume.spline->lattice(), extents, volume.spline->apron(), 32);
   std::vector<std::int32_t> bricks = checked_bricks(volume, layout, bounds);
   sort_front_to_back(layout, glm::dvec3(-100.0), bricks);
-  const auto fill = std::make_shared<SampleBricks>(layout, source, *volume.spline, Spline::Prefilter::quasi_interpolation);
+  const auto fill = std::make_shared<SampleBricks>(layout, source, *volume.spline, Spline::Prefilter::automatic);
   BrickPool pool(layout, fill, 5 * layout.slot_bytes());
   std::size_t uploads = 0;
   for (std::size_t n = 0; n < bricks.size(); n += 5) {

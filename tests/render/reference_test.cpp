@@ -166,7 +166,7 @@ TEST(Reference, SkippingCellsChangesNoBit) {
                                bcc_volume({6, 6, 6}, [](const glm::dvec3& u) { return u.x < 5.0 ? 0.0 : 1.0; })}) {
     const Sampled sampled(volume);
     const CellBounds bounds = cell_bounds(
-        *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation));
+        *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::automatic));
     for (const Intersect intersect : {Intersect::exact, Intersect::march})
       for (const auto& surfaces : {std::vector<Isosurface>{{0.5, {1.0, 0.9, 0.8}, 1.0}},
                                    {{0.75, {1.0, 0.0, 0.0}, 0.3}, {0.25, {0.0, 1.0, 0.0}, 0.4}, {1.0, {}, 0.5}}}) {
@@ -192,7 +192,7 @@ TEST(Reference, SkippingFromAnEyeInsideChangesNoBit) {
   const Volume volume = random_volume({9, 9, 9}, 32);
   const Sampled sampled(volume);
   const CellBounds bounds = cell_bounds(
-      *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation));
+      *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::automatic));
   std::mt19937 random(33);
   std::uniform_real_distribution<double> inside(0.0, 17.0);
   for (int view = 0; view < 10; ++view) {
@@ -322,7 +322,7 @@ TEST(Reference, CountsEvaluationsStepsAndIntervals) {
   EXPECT_GE(all.cost[0], 20.0f) << "2 to 3 pieces a cell";
   EXPECT_LE(all.cost[0], 40.0f);
   const CellBounds bounds = cell_bounds(
-      *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation));
+      *sampled.spline, sampled.spline->coefficients_float(volume, Spline::Prefilter::automatic));
   const Frame skipped = render(sampled, scene, &bounds);
   EXPECT_EQ(skipped.cost[1], 10.0f);
   EXPECT_EQ(skipped.cost[2], 1.0f);

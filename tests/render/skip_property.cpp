@@ -140,7 +140,7 @@ const gpu::Pipeline& property_pipeline(const SkipConfig& config) {
 SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfig& config, std::uint32_t rays, std::uint32_t seed, double shrink) {
   gpu::Device& device = test_kernels()->device();
   const auto spline = make_spline("bcc7");
-  const Coefficients<float> coefficients = spline->coefficients_float(v.volume, Spline::Prefilter::quasi_interpolation);
+  const Coefficients<float> coefficients = spline->coefficients_float(v.volume, Spline::Prefilter::automatic);
   const Renderer::Request request = request_for(v.volume, v.isovalue);
   const CellBounds cells = shrunken(cell_bounds(*spline, coefficients), shrink);
   const std::vector<double> isovalues{v.isovalue};

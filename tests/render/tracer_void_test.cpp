@@ -57,7 +57,7 @@ TEST(TracerWithVoids, CrossesWhatDenseSamplesCrossOutsideVoidCellsAndNothingElse
     std::size_t crossed = 0, passed = 0;
     for (const VoidVolume& v : void_volumes(make_spline(name)->lattice())) {
       const Emptied e(v.volume, name);
-      CellBounds bounds = cell_bounds(*e.spline, e.spline->coefficients_float(e.volume, Spline::Prefilter::quasi_interpolation));
+      CellBounds bounds = cell_bounds(*e.spline, e.spline->coefficients_float(e.volume, Spline::Prefilter::automatic));
       const Tracer all(*e.spline, e.coefficients, std::array{kIso}, nullptr, {}, &e.voids), skipping(*e.spline, e.coefficients, std::array{kIso}, &bounds, {}, &e.voids);
       VoidStretches stretches;
       for (const LatticeRay& ray : random_rays(e.coefficients, 40, 7)) {

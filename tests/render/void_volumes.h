@@ -64,7 +64,7 @@ struct Emptied {
 
   Emptied(const Volume& holed, std::string_view name)
       : spline(make_spline(name)), volume(holed), voids(make_finite(volume, *spline, {NanPolicy::Kind::empty, 0.0})),
-        coefficients(spline->coefficients(volume, Spline::Prefilter::quasi_interpolation)) {}
+        coefficients(spline->coefficients(volume, Spline::Prefilter::automatic)) {}
 };
 
 }  // namespace quincunx

@@ -38,7 +38,7 @@ struct Sampled {
   std::unique_ptr<Spline> spline = make_spline("bcc7");
   Coefficients<double> coefficients;
 
-  explicit Sampled(const Volume& volume, Spline::Prefilter prefilter = Spline::Prefilter::quasi_interpolation)
+  explicit Sampled(const Volume& volume, Spline::Prefilter prefilter = Spline::Prefilter::automatic)
       : coefficients(spline->coefficients(volume, prefilter)) {}
   double value(const glm::dvec3& u) const { return spline->evaluate(coefficients, u).value; }
 };
@@ -53,7 +53,7 @@ class QuadraticSpline final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::bcc; }
   int degree() const override { return 2; }
   int apron() const override { return 0; }
-  int prefilter_reach() const override { return 0; }
+  std::span<const Filter> filters() const override { return {&kNoFilter, 1}; }
   std::string_view shader() const override { return ""; }
   Jet generator(const glm::dvec3&) const override { return {}; }
   Jet evaluate(const Coefficients<double>&, const glm::dvec3& u) const override { return f_(u); }

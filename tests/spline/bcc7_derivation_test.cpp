@@ -49,7 +49,7 @@ TEST(Bcc7, AgreesWithTheExactRecursionOnAVolume) {
   const Bcc7 spline;
   const Extents extents(3);
   const auto c =
-      spline.coefficients(random_volume(LatticeKind::bcc, extents, 1), Spline::Prefilter::quasi_interpolation);
+      spline.coefficients(random_volume(LatticeKind::bcc, extents, 1), Spline::Prefilter::automatic);
   ExactBoxSpline exact(bcc7_directions());
   Random random(2);
   for (int n = 0; n < 6; ++n) {

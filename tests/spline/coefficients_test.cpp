@@ -34,7 +34,7 @@ TEST(Coefficients, AreTheDefinitionOfQ7WithClampedSamplesAndClampedAprons) {
   const Bcc7 spline;
   for (const Extents& extents : kExtents) {
     const Volume volume = random_volume(LatticeKind::bcc, extents, 1);
-    const auto c = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation);
+    const auto c = spline.coefficients(volume, Spline::Prefilter::automatic);
     ASSERT_EQ(c.data.size(), std::size_t(2 * (extents.x + 2) * (extents.y + 2) * (extents.z + 2)));
     for (int coset = 0; coset < 2; ++coset)
       for (std::int64_t k = -1; k <= extents.z; ++k)
@@ -50,7 +50,7 @@ TEST(Coefficients, GiveTheClampedSplineOnTheBorderOfTheSmallestDomains) {
   const Bcc7 spline;
   for (const Extents& extents : kExtents) {
     const Volume volume = random_volume(LatticeKind::bcc, extents, 2);
-    const auto c = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation);
+    const auto c = spline.coefficients(volume, Spline::Prefilter::automatic);
     const glm::dvec3 last(domain_max(LatticeKind::bcc, extents));
     // Corners, middles of edges and faces, and points just inside.
     for (const double x : {0.0, 1e-9, 0.5, 1.0})
@@ -73,8 +73,8 @@ TEST(Coefficients, AreTheSamplesWithoutPrefilterAndTheirRoundingInFloats) {
   const auto plain = spline.coefficients(volume, Spline::Prefilter::none);
   EXPECT_EQ(plain.data[plain.number(1, {2, 1, 3})], volume.sample(1, {2, 1, 3}));
   EXPECT_EQ(plain.data[plain.number(0, {-1, 1, 4})], volume.sample(0, {0, 1, 3}));
-  const auto filtered = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation);
-  const auto rounded = spline.coefficients_float(volume, Spline::Prefilter::quasi_interpolation);
+  const auto filtered = spline.coefficients(volume, Spline::Prefilter::automatic);
+  const auto rounded = spline.coefficients_float(volume, Spline::Prefilter::automatic);
   ASSERT_EQ(filtered.data.size(), rounded.data.size());
   for (std::size_t n = 0; n < filtered.data.size(); ++n) EXPECT_EQ(rounded.data[n], float(filtered.data[n]));
 }
@@ -83,27 +83,27 @@ TEST(Coefficients, OfEverySampleTypeAgree) {
   const Bcc7 spline;
   Volume volume = volume_of(LatticeKind::bcc, {4, 3, 2},
                             [](const glm::dvec3& u) { return std::fmod(u.x * 37 + u.y * 11 + u.z * 5, 251.0); });
-  const auto expected = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation).data;
+  const auto expected = spline.coefficients(volume, Spline::Prefilter::automatic).data;
   const auto floats = std::get<std::vector<float>>(volume.samples);
   volume.samples = std::vector<std::uint8_t>(floats.begin(), floats.end());
-  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::quasi_interpolation).data, expected);
+  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::automatic).data, expected);
   volume.samples = std::vector<std::int16_t>(floats.begin(), floats.end());
-  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::quasi_interpolation).data, expected);
+  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::automatic).data, expected);
   volume.samples = std::vector<std::uint16_t>(floats.begin(), floats.end());
-  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::quasi_interpolation).data, expected);
+  EXPECT_EQ(spline.coefficients(volume, Spline::Prefilter::automatic).data, expected);
 }
 
 TEST(Coefficients, OfAConstantAreThatConstant) {
   const Bcc7 spline;
   const auto c = spline.coefficients(volume_of(LatticeKind::bcc, {3, 3, 3}, [](const glm::dvec3&) { return 130.0; }),
-                                     Spline::Prefilter::quasi_interpolation);
+                                     Spline::Prefilter::automatic);
   EXPECT_THAT(c.data, testing::Each(130.0));
 }
 
 /// The message of the InputError that making coefficients ends in.
 std::string refusal(const Volume& volume) {
   try {
-    Bcc7().coefficients_float(volume, Spline::Prefilter::quasi_interpolation);
+    Bcc7().coefficients_float(volume, Spline::Prefilter::automatic);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -138,7 +138,7 @@ TEST(Coefficients, ReportProgressToTheEndOneThreadAtATimeAndStopWhenAsked) {
     last = fraction;
     reporting.unlock();
   };
-  spline.coefficients(volume, Spline::Prefilter::quasi_interpolation, listen);
+  spline.coefficients(volume, Spline::Prefilter::automatic, listen);
   EXPECT_EQ(last, 1.0);
   EXPECT_THROW(spline.coefficients(volume, Spline::Prefilter::none, [](double) { throw Interrupted(); }), Interrupted);
 }

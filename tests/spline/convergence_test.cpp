@@ -40,7 +40,7 @@ TEST(Convergence, HasItsApproximationOrderWithPrefilterAndWithout) {
   ASSERT_EQ(std::size(kOrders), spline_names().size());
   for (const Order& order : kOrders) {
     const auto spline = make_spline(order.name);
-    for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::quasi_interpolation}) {
+    for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::automatic}) {
       const double expected = prefilter == Spline::Prefilter::none ? order.without : order.with_prefilter;
       double coarse = rms_error(*spline, 16, prefilter);
       for (const int cells : {24, 36, 54}) {

@@ -156,7 +156,7 @@ TEST_P(SplineFamily, HasTheDerivativeAsItsGradient) {
 TEST_P(SplineFamily, EvaluatesTheSumOfItsShiftedGenerators) {
   const Extents extents(3, 4, 5);
   const Volume volume = random_volume(spline->lattice(), extents, 5);
-  for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::quasi_interpolation}) {
+  for (const auto prefilter : {Spline::Prefilter::none, Spline::Prefilter::automatic}) {
     const auto c = spline->coefficients(volume, prefilter);
     const glm::dvec3 last(domain_max(spline->lattice(), extents));
     Random random(6);
@@ -206,8 +206,8 @@ double monomial_error(const Spline& spline, int degree, Spline::Prefilter prefil
 
 TEST_P(SplineFamily, ReproducesPolynomialsUpToItsDegreeAndNotOneMore) {
   for (int degree = 0; degree <= expected->reproduced; ++degree)
-    EXPECT_LT(monomial_error(*spline, degree, Spline::Prefilter::quasi_interpolation), 1e-11) << "degree " << degree;
-  EXPECT_GT(monomial_error(*spline, expected->reproduced + 1, Spline::Prefilter::quasi_interpolation), 1e-2);
+    EXPECT_LT(monomial_error(*spline, degree, Spline::Prefilter::automatic), 1e-11) << "degree " << degree;
+  EXPECT_GT(monomial_error(*spline, expected->reproduced + 1, Spline::Prefilter::automatic), 1e-2);
 }
 
 TEST_P(SplineFamily, ReproducesFewerPolynomialsWithoutPrefilter) {
@@ -238,7 +238,7 @@ double highest_difference(const Spline& spline, const Coefficients<double>& c, c
 TEST_P(SplineFamily, IsOnePolynomialBetweenSplitsWhichTheSegmentHolds) {
   const Extents extents(3);
   const auto c =
-      spline->coefficients(random_volume(spline->lattice(), extents, 8), Spline::Prefilter::quasi_interpolation);
+      spline->coefficients(random_volume(spline->lattice(), extents, 8), Spline::Prefilter::automatic);
   const glm::dvec3 cells(domain_max(spline->lattice(), extents));
   // The difference of the highest order adds up 2^order roundings.
   const double rounding = 4e-15 * std::exp2(spline->degree() + 1);

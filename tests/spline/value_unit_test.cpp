@@ -46,8 +46,8 @@ double largest_loss(const Spline& spline, const Volume& volume) {
   const SampleRange range = sample_range(volume);
   const ValueUnit unit = float_unit(volume.type(), range.min, range.max);
   EXPECT_FALSE(unit.plain());
-  const auto exact = spline.coefficients(volume, Spline::Prefilter::quasi_interpolation);
-  const auto rounded = spline.coefficients_float(volume, Spline::Prefilter::quasi_interpolation, unit);
+  const auto exact = spline.coefficients(volume, Spline::Prefilter::automatic);
+  const auto rounded = spline.coefficients_float(volume, Spline::Prefilter::automatic, unit);
   EXPECT_EQ(rounded.unit, unit);
   double loss = 0.0;
   for (std::size_t n = 0; n < exact.data.size(); ++n) loss = std::max(loss, std::abs(unit.value(rounded.data[n]) - exact.data[n]));
@@ -77,11 +77,11 @@ TEST(ValueUnit, IsTheSameForABoxCutOutOfTheVolume) {
     const auto spline = make_spline(name);
     const Volume volume = noisy(spline->lattice(), 1e7, 50.0);
     const ValueUnit unit{1e7 + 25.0, 1.0};
-    const auto whole = spline->coefficients_float(volume, Spline::Prefilter::quasi_interpolation, unit);
+    const auto whole = spline->coefficients_float(volume, Spline::Prefilter::automatic, unit);
     const IndexBox box{{1, -2, 3}, {4, 6, 5}};
     std::vector<float> expected(std::size_t(coset_count(volume.lattice)) * 4 * 6 * 5), found(expected.size());
     copy_box(whole, box, expected);
-    box_coefficients(VolumeSource(volume), *spline, Spline::Prefilter::quasi_interpolation, unit, box, found);
+    box_coefficients(VolumeSource(volume), *spline, Spline::Prefilter::automatic, unit, box, found);
     EXPECT_EQ(found, expected) << name;
   }
 }
