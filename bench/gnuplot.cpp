@@ -1,16 +1,20 @@
 #include "bench/gnuplot.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "io/atomic_file.h"
 
@@ -52,6 +56,27 @@ class Streams {
 
 }  // namespace
 
+std::string gnuplot_string(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += c;
+    result += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  }
+  return result + "'";
+}
+
+std::string gnuplot_marks(double low, double high) {
+  const bool close = high / low < 4.0;
+  std::vector<std::string> marks;
+  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+    for (const double digit : close ? std::vector<double>{1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8} : std::vector<double>{1, 2, 5}) {
+      const double mark = digit * decade;
+      if (mark >= low && mark <= high) marks.push_back(fmt::format("'{0:.6g}' {0:.6g}", mark));
+    }
+  }
+  return fmt::format("{}", fmt::join(marks, ", "));
+}
+
 Drawn draw_with_gnuplot(const std::string& script, const std::string& path) {
   AtomicFile file(path);
   const File input = anonymous_file(script);
@@ -70,6 +95,14 @@ Drawn draw_with_gnuplot(const std::string& script, const std::string& path) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || std::filesystem::file_size(file.temporary()) == 0) return Drawn::failed;
   file.commit();
   return Drawn::yes;
+}
+
+void draw_or_note(const std::string& script, const std::string& path) {
+  const Drawn drawn = draw_with_gnuplot(script, path);
+  if (drawn == Drawn::yes) return;
+  std::filesystem::remove(path);
+  fmt::print(stderr, "note: {} is not drawn: {}\n", path,
+             drawn == Drawn::failed ? "gnuplot failed" : "gnuplot is not there (Debian package gnuplot-nox)");
 }
 
 }  // namespace quincunx

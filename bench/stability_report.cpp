@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/html.h"
+
 namespace quincunx {
 namespace {
 
@@ -64,46 +66,7 @@ Json verdict_json(const Verdict& v) {
           {"not_finite", v.not_finite}, {"depth", v.depth}, {"residual", v.residual}, {"normal", v.normal}, {"normal_part", v.normal_part}};
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
-
-/// In quotes where CSV (RFC 4180) wants them.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-  return result + "\"";
-}
-
-void append_html(std::string& page, const StabilitySection& section) {
-  page += fmt::format("<h2>{}</h2>\n<p>{}</p>\n<div class=\"wide\"><table>\n<thead><tr>", escaped(section.title), escaped(section.caption));
-  const auto kind = [&](std::size_t column) { return column < section.table.left ? " class=\"text\"" : ""; };
-  for (std::size_t n = 0; n < section.table.headings.size(); ++n) page += fmt::format("<th{}>{}</th>", kind(n), escaped(section.table.headings[n]));
-  page += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : section.table.rows) {
-    page += row.back() == "pass" ? "<tr>" : "<tr class=\"fail\">";
-    for (std::size_t n = 0; n < row.size(); ++n) page += fmt::format("<td{}>{}</td>", kind(n), escaped(row[n]));
-    page += "</tr>\n";
-  }
-  page += "</tbody></table></div>\n";
-}
-
-constexpr const char* kStyle =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:84rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}"
-    "code{background:#f2f2f2;padding:.1em .3em}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}"
-    "th,td{padding:.2em .6em;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}th{position:sticky;top:0;background:#fff;border-bottom:2px solid #888}"
-    ".text{text-align:left}tr.fail td{background:#fde0dc}tbody tr:hover td{background:#eef4fb}";
+std::string failed_row(const std::vector<std::string>& row) { return row.back() == "pass" ? "" : "fail"; }
 
 }  // namespace
 
@@ -182,8 +145,9 @@ std::string stability_html(const StabilityReport& report) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Quincunx: stability</title><style>{}</style></head>\n<body>\n"
       "<h1>Numerical stability: {} of {} passed</h1>\n<p><code>{}</code><br>{}</p>\n",
-      kStyle, score.passed, score.all, escaped(report.command), escaped(machine_text(report.machine)));
-  for (const StabilitySection& section : stability_sections(report)) append_html(page, section);
+      kPageStyle, score.passed, score.all, html_text(report.command), html_text(machine_text(report.machine)));
+  for (const StabilitySection& section : stability_sections(report))
+    page += fmt::format("<h2>{}</h2>\n<p>{}</p>\n{}", html_text(section.title), html_text(section.caption), html_table(section.table, failed_row));
   return page + "</body></html>\n";
 }
 

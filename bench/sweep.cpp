@@ -80,19 +80,11 @@ bool measure(const SweepFlags& flags, const Scene& scene, const Volume& volume, 
   return true;
 }
 
-void write_plot(const SweepReport& report, const std::string& path) {
-  const Drawn drawn = draw_with_gnuplot(sweep_plot_script(report), path);
-  if (drawn == Drawn::yes) return;
-  std::filesystem::remove(path);  // that of an earlier sweep would be taken for this one's
-  fmt::print(stderr, "note: {} is not drawn: {}\n", path,
-             drawn == Drawn::failed ? "gnuplot failed" : "gnuplot is not there (Debian package gnuplot-nox)");
-}
-
 void write_outputs(const SweepReport& report, const OutputFolder& folder) {
   write_text(sweep_csv(report), folder.file("sweep.csv"));
   write_text(sweep_json(report).dump(2) + "\n", folder.file("sweep.json"));
   write_text(sweep_markdown(report), folder.file("sweep.md"));
-  write_plot(report, folder.file("sweep.svg"));
+  draw_or_note(sweep_plot_script(report), folder.file("sweep.svg"));
 }
 
 void check_sweep_flags(const SweepFlags& flags) {

@@ -11,6 +11,7 @@
 
 #include "accel/structure.h"
 #include "app/render_report.h"
+#include "bench/gnuplot.h"
 
 namespace quincunx {
 namespace {
@@ -24,16 +25,6 @@ struct Curve {
 constexpr std::array<const char*, 8> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#7f5a3c", "#808080"};
 constexpr std::array<int, 8> kShapes{7, 5, 9, 11, 13, 6, 4, 8};
-
-/// `text` as a string of gnuplot's, in single quotes: nothing but the quote itself has a meaning there.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += c;
-    result += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  }
-  return result + "'";
-}
 
 double median_ms(const SweepReport& report, std::size_t n) { return percentile(report.measured[n].cost.frame_ms, 0.5); }
 
@@ -61,19 +52,6 @@ std::vector<Curve> curves(const SweepReport& report) {
   return all;
 }
 
-/// Marks 1, 2, 5, 10, .. of an axis, and more of them where it spans little.
-std::string marks_between(double low, double high) {
-  const bool close = high / low < 4.0;
-  std::vector<std::string> marks;
-  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
-    for (const double digit : close ? std::vector<double>{1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8} : std::vector<double>{1, 2, 5}) {
-      const double mark = digit * decade;
-      if (mark >= low && mark <= high) marks.push_back(fmt::format("'{0:.6g}' {0:.6g}", mark));
-    }
-  }
-  return fmt::format("{}", fmt::join(marks, ", "));
-}
-
 /// Title, axes, legend.
 std::string frame_of_the_drawing(const SweepReport& report, std::size_t curve_count) {
   double low = median_ms(report, 0), high = low;
@@ -94,12 +72,12 @@ std::string frame_of_the_drawing(const SweepReport& report, std::size_t curve_co
                   report.height, sweep_method(report));
   const std::size_t height = std::max<std::size_t>(560, 150 + 22 * (curve_count + 3));  // none, the best and auto are in the legend too
   std::string text = fmt::format("set terminal svg size 960,{} background 'white' font 'DejaVu Sans,13'\n", height);
-  text += fmt::format("set title {}.\"\\n\".{} noenhanced\n", quoted(title), quoted(report.machine.device));
+  text += fmt::format("set title {}.\"\\n\".{} noenhanced\n", gnuplot_string(title), gnuplot_string(report.machine.device));
   text += "set key outside right top maxcols 1 reverse Left noenhanced samplen 2\n";
   text += "set logscale x 2\nset logscale y 10\nset grid back lc rgb '#d0d0d0' dt 1 lw 0.5\nset border 3\n";
   text += "set xlabel 'edge of a block, cells'\nset ylabel 'frame, ms (median)'\n";
   text += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", *blocks.begin() / 1.25, *blocks.rbegin() * 1.25, low, high);
-  text += fmt::format("set xtics nomirror ({})\nset ytics nomirror ({})\n", fmt::join(block_marks, ", "), marks_between(low, high));
+  text += fmt::format("set xtics nomirror ({})\nset ytics nomirror ({})\n", fmt::join(block_marks, ", "), gnuplot_marks(low, high));
   return text;
 }
 
@@ -113,7 +91,7 @@ std::string sweep_plot_script(const SweepReport& report) {
   const auto add = [&](const std::string& points, const std::string& style, const std::string& title) {
     const std::string name = fmt::format("$data{}", plots.size());
     data += fmt::format("{} << EOD\n{}EOD\n", name, points);
-    plots.push_back(fmt::format("{} {} title {}", name, style, quoted(title)));
+    plots.push_back(fmt::format("{} {} title {}", name, style, gnuplot_string(title)));
   };
   for (const Curve& curve : structures) add(curve.points, curve.style, curve.title);
   // None has no block to be marked at.

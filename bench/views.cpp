@@ -1,16 +1,11 @@
 #include "bench/views.h"
 
 namespace quincunx {
-namespace {
 
-constexpr Orbit kFirstView{30.0, 10.0, 1.0};  // that of `quincunx render`
-
-}  // namespace
-
-std::vector<Renderer::Request> orbit_views(const Renderer::Request& request, const Volume& volume, int count) {
+std::vector<Renderer::Request> orbit_views(const Renderer::Request& request, const Volume& volume, int count, const Orbit& first) {
   std::vector<Renderer::Request> views;
   for (int view = 0; view < count; ++view) {
-    Orbit at = kFirstView;
+    Orbit at = first;
     at.azimuth += 360.0 * view / count;
     Renderer::Request seen = request;
     Scene& scene = seen.scene;

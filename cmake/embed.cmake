@@ -1,6 +1,6 @@
-# cmake -DFOLDER=dir -DFILES=a|b/c -DOUTPUT=file.cpp -P embed.cmake
+# cmake -DFOLDER=dir -DFILES=a|b/c -DHEADER=folder/name.h -DNAMESPACE=name -DOUTPUT=file.cpp -P embed.cmake
 #
-# Writes the files' bytes as C++ arrays (shaders/embedded.h). Arrays of numbers, not string literals: they have no
+# Writes the files' bytes as the C++ arrays that the header declares in its namespace (shaders/embedded.h). Arrays of numbers, not string literals: they have no
 # limit of length and no character that needs care.
 set(arrays "")
 set(table "")
@@ -16,9 +16,9 @@ foreach(name IN LISTS names)
   math(EXPR count "${count} + 1")
 endforeach()
 file(WRITE "${OUTPUT}" "// Written by cmake/embed.cmake.
-#include \"shaders/embedded.h\"
+#include \"${HEADER}\"
 
-namespace quincunx::embedded {
+namespace ${NAMESPACE} {
 namespace {
 ${arrays}}  // namespace
 
@@ -27,5 +27,5 @@ ${table}    {},
 };
 const std::size_t kFileCount = ${count};
 
-}  // namespace quincunx::embedded
+}  // namespace ${NAMESPACE}
 ")

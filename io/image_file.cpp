@@ -1,5 +1,6 @@
 #include "io/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "io/atomic_file.h"
 #include "io/input_file.h"
@@ -66,6 +68,13 @@ std::vector<std::uint8_t> png_pixels(const Image& image, const std::string& path
   return pixels;
 }
 
+OIIO::ImageSpec png_spec(const Image& image) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channel("A") >= 0 ? 4 : 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  return spec;
+}
+
 /// Writes pixels of `type` described by `spec` to `path` through the plug-in `format`.
 void write_pixels(const std::string& path, const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                   const void* pixels) {
@@ -97,11 +106,21 @@ void write_image(const Image& image, const std::string& path) {
     write_pixels(path, format, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
   } else {
     const std::vector<std::uint8_t> pixels = png_pixels(image, path);
-    OIIO::ImageSpec spec(image.width, image.height, image.channel("A") >= 0 ? 4 : 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    write_pixels(path, format, spec, OIIO::TypeDesc::UINT8, pixels.data());
+    write_pixels(path, format, png_spec(image), OIIO::TypeDesc::UINT8, pixels.data());
   }
+}
+
+std::string png_bytes(const Image& image) {
+  check_image(image, "png");
+  const std::vector<std::uint8_t> pixels = png_pixels(image, "png");
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+  if (!output) throw std::runtime_error("png: " + first_line(OIIO::geterror()));
+  output->set_ioproxy(&memory);
+  const bool written = output->open("memory.png", png_spec(image)) && output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close();
+  if (!written) throw std::runtime_error("png: cannot be made: " + first_line(output->geterror()));
+  return {bytes.begin(), bytes.end()};
 }
 
 Image read_image(const std::string& path) {

@@ -27,6 +27,9 @@ struct Image {
 /// Throws InputError for another extension, a place that cannot be written, or channels that do not fit.
 void write_image(const Image& image, const std::string& path);
 
+/// What write_image puts into a .png, as bytes. Throws InputError for channels that do not fit.
+std::string png_bytes(const Image& image);
+
 /// Reads any image OpenImageIO knows as float32; integers come as 0..1 without any change of their transfer or alpha.
 /// The channels' order is OpenImageIO's (R G B A first), not that in which they were written: find them by name.
 /// Throws InputError.
