@@ -1,6 +1,7 @@
-// quincunx-bench: error against time, time against size, leaves against time, ways to ask for opacity, volumes against a closed form, 32-bit against 64-bit floats.
+// quincunx-bench: error against time, time against size, leaves against time, ways to ask for opacity, volumes against a closed form, orders of approximation, 32-bit against 64-bit floats.
 #include "app/program.h"
 #include "bench/cluster.h"
+#include "bench/convergence.h"
 #include "bench/growth.h"
 #include "bench/intersect.h"
 #include "bench/precision.h"
@@ -11,5 +12,5 @@ int main(int argc, char** argv) {
   using namespace quincunx;
   return run_program({"quincunx-bench", "Error against time: what each way of rendering costs, and what it gets wrong.",
                       QUINCUNX_VERSION},
-                     {intersect_command, growth_command, cluster_command, ranges_command, steps_command, precision_command}, argc, argv);
+                     {intersect_command, growth_command, cluster_command, ranges_command, steps_command, convergence_command, precision_command}, argc, argv);
 }

@@ -37,7 +37,7 @@ class Bcc7 final : public Spline {
   static QuarticNet bernstein(const Coefficients<double>& c, const Tetrahedron& tetrahedron);
 
  private:
-  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 13.0 / 6.0}, kNoFilter};
+  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 13.0 / 6.0, 4}, {Prefilter::none, 0, 1.0, 2}};
 };
 
 }  // namespace quincunx

@@ -31,8 +31,9 @@ class Spline {
     int reach;
     /// The sum of its |weights|: how far from the middle of the samples' range coefficients may be, in halves of it.
     double gain;
+    /// Approximation order of the values: the error of a smooth function's samples falls with this power of the spacing.
+    int order;
   };
-  static constexpr Filter kNoFilter{Prefilter::none, 0, 1.0};
 
   virtual ~Spline() = default;
 
@@ -43,7 +44,7 @@ class Spline {
   /// Samples of border that the stencil reaches beyond the domain, per side of each coset. Coefficients may have more:
   /// those of a Cartesian volume with an axis of one sample have one more, for that axis's one cell (cell_count).
   virtual int apron() const = 0;
-  /// The prefilters that it has: the one of Prefilter::automatic first, `none` last.
+  /// The prefilters that it has: the one of Prefilter::automatic, of full order, first; `none` last.
   virtual std::span<const Filter> filters() const = 0;
   /// The one of that kind; throws InputError (--prefilter) naming those it has.
   const Filter& filter(Prefilter wanted) const;

@@ -29,7 +29,7 @@ class Tricubic final : public Spline {
                                          const Progress& progress = {}) const override;
 
  private:
-  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 125.0 / 27.0}, kNoFilter};
+  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 125.0 / 27.0, 4}, {Prefilter::none, 0, 1.0, 2}};
 };
 
 }  // namespace quincunx

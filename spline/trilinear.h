@@ -31,7 +31,7 @@ class Trilinear final : public Spline {
                                          const Progress& progress = {}) const override;
 
  private:
-  static constexpr Filter kFilters[] = {kNoFilter};
+  static constexpr Filter kFilters[] = {{Prefilter::none, 0, 1.0, 2}};
 };
 
 }  // namespace quincunx

@@ -53,7 +53,10 @@ class QuadraticSpline final : public Spline {
   LatticeKind lattice() const override { return LatticeKind::bcc; }
   int degree() const override { return 2; }
   int apron() const override { return 0; }
-  std::span<const Filter> filters() const override { return {&kNoFilter, 1}; }
+  std::span<const Filter> filters() const override {
+    static constexpr Filter none{Prefilter::none, 0, 1.0, 3};
+    return {&none, 1};
+  }
   std::string_view shader() const override { return ""; }
   Jet generator(const glm::dvec3&) const override { return {}; }
   Jet evaluate(const Coefficients<double>&, const glm::dvec3& u) const override { return f_(u); }
