@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace quincunx {
 namespace {
@@ -128,6 +129,15 @@ NumberRange range_of(std::span<const float> numbers) {
         return NumberRange{low, high};
       },
       [](const NumberRange& a, const NumberRange& b) { return NumberRange{std::min(a.low, b.low), std::max(a.high, b.high)}; });
+}
+
+Coefficients<float> stored_coefficients(const Spline& spline, const Volume& volume, Spline::Prefilter prefilter, Storage storage, const Progress& progress,
+                                        std::vector<std::byte>* packed) {
+  const SampleRange range = sample_range(volume);
+  Coefficients<float> c = spline.coefficients_float(volume, prefilter, float_unit(volume.type(), range.min, range.max), progress);
+  std::vector<std::byte> bits = store(storage, c);
+  if (packed) *packed = std::move(bits);
+  return c;
 }
 
 Coefficients<double> values_of(const Coefficients<float>& c) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spline/coefficients.h"
+#include "spline/spline.h"
 
 namespace quincunx {
 
@@ -62,5 +62,10 @@ NumberRange range_of(std::span<const float> numbers);
 
 /// The values that the numbers stand for.
 Coefficients<double> values_of(const Coefficients<float>& c);
+
+/// The coefficients that kernels of 32-bit floats are given of a volume: what the prefilter makes, rounded to floats in float_unit, then to `storage`, whose bits
+/// `packed` gets where it is not null (none for float32). Throws as Spline::coefficients_float.
+Coefficients<float> stored_coefficients(const Spline& spline, const Volume& volume, Spline::Prefilter prefilter, Storage storage, const Progress& progress = {},
+                                        std::vector<std::byte>* packed = nullptr);
 
 }  // namespace quincunx

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lattice/error.h"
+#include "spline/box_coefficients.h"
 
 namespace quincunx {
 namespace {
@@ -99,6 +100,90 @@ TEST(StreamedBounds, SayTheRangeOfTheSamplesAndTheScaleOfTheWholeVolume) {
   EXPECT_EQ(bounds.scale.low, scale.low);
   EXPECT_EQ(bounds.scale.step, scale.step);
   EXPECT_EQ(bounds.scale.displacement, scale.displacement);
+}
+
+/// The numbers of a brick's slot as a kernel decodes them.
+std::vector<float> decoded_slot(const Volume& volume, const Spline& spline, Spline::Prefilter prefilter, const BrickLayout& layout, const glm::ivec3& brick) {
+  std::vector<float> slot(std::size_t(layout.slot_floats()));
+  box_coefficients(VolumeSource(volume), spline, prefilter, {}, {layout.first_index(brick), Extents(layout.samples)}, slot);
+  const NumberRange range = range_of(slot);
+  const ValueUnit unit = storage_unit(layout.storage, range.low, range.high);
+  for (float& number : slot) {
+    const float product = float(unit.scale) * stored_number(layout.storage, storage_bits(layout.storage, unit.number(number)));
+    number = float(unit.offset) + product;
+  }
+  return slot;
+}
+
+/// The spline's value at u, of the cell's brick alone.
+double value_in_brick(const Spline& spline, const BrickLayout& layout, const std::vector<float>& slot, const glm::i64vec3& cell, const glm::dvec3& u) {
+  const glm::i64vec3 brick = cell / std::int64_t(layout.edge);
+  Coefficients<double> c;
+  c.lattice = layout.lattice;
+  c.apron = layout.apron;
+  c.extents = Extents(layout.samples - 2 * layout.apron);
+  c.data.assign(slot.begin(), slot.end());
+  return spline.evaluate(c, u - glm::dvec3(brick * std::int64_t(layout.edge))).value;
+}
+
+TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
+  std::size_t beyond_unrounded = 0;
+  for (const std::string_view name : spline_names()) {
+    const auto spline = make_spline(name);
+    const LatticeKind lattice = spline->lattice();
+    const Volume volume = waves(lattice, lattice == LatticeKind::bcc ? Extents(70, 9, 6) : Extents(139, 18, 11));
+    const glm::i64vec3 cells = cell_count(volume.lattice, volume.extents);
+    for (const Storage storage : {Storage::float16, Storage::unorm16, Storage::unorm8})
+      for (const int edge : {4, 16, 128}) {
+        SCOPED_TRACE(std::string(name) + ", " + storage_name(storage) + ", bricks of " + std::to_string(edge));
+        const BrickLayout layout(lattice, volume.extents, spline->apron(), edge, storage);
+        const Spline::Prefilter prefilter = Spline::Prefilter::automatic;
+        const StreamedBounds bounds = streamed_bounds(VolumeSource(volume), *spline, prefilter, 4, "volume", {}, {}, &layout);
+        const StreamedBounds unrounded = streamed_bounds(VolumeSource(volume), *spline, prefilter, 4, "volume");
+        std::mt19937 random(5);
+        for (int n = 0; n < 20; ++n) {
+          const glm::ivec3 brick(int(random() % unsigned(layout.bricks.x)), int(random() % unsigned(layout.bricks.y)), int(random() % unsigned(layout.bricks.z)));
+          const std::vector<float> slot = decoded_slot(volume, *spline, prefilter, layout, brick);
+          for (int k = 0; k < 50; ++k) {
+            glm::i64vec3 cell;
+            glm::dvec3 u;
+            for (int a = 0; a < 3; ++a) {
+              const std::int64_t first = brick[a] * std::int64_t(edge), count = std::min<std::int64_t>(edge, cells[a] - first);
+              cell[a] = first + (k % 3 == a ? 0 : std::int64_t(random() % std::uint64_t(count)));
+              u[a] = double(cell[a]) + (k % 3 == a ? 0.0 : std::uniform_real_distribution<double>(0.0, 0.999)(random));
+            }
+            const double value = value_in_brick(*spline, layout, slot, cell, u);
+            // The cell's own block, and at the brick's lower face the one before it.
+            glm::i64vec3 before = cell;
+            before[k % 3] = std::max<std::int64_t>(before[k % 3] - 1, 0);
+            for (const glm::i64vec3& side : {cell, before}) {
+              const glm::i64vec3 b = side / std::int64_t(4);
+              const std::size_t number = std::size_t((b.z * bounds.blocks.blocks.y + b.y) * bounds.blocks.blocks.x + b.x);
+              ASSERT_LE(bounds.scale.value(bounds.blocks.min[number]), value);
+              ASSERT_GE(bounds.scale.value(bounds.blocks.max[number]), value);
+              beyond_unrounded += value < unrounded.scale.value(unrounded.blocks.min[number]) || value > unrounded.scale.value(unrounded.blocks.max[number]);
+            }
+          }
+        }
+      }
+  }
+  EXPECT_GT(beyond_unrounded, 100u) << "nothing was put to the test";
+}
+
+TEST(StreamedBounds, OfStoredBricksAreWiderByHalfAStepOfTheWidestNearAndNoMore) {
+  const auto spline = make_spline("trilinear");
+  const Volume volume = waves(LatticeKind::cartesian, {200, 9, 9});
+  const BrickLayout layout(volume.lattice, volume.extents, spline->apron(), 8, Storage::unorm8);
+  const StreamedBounds found = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::none, 8, "volume", {}, {}, &layout);
+  const StreamedBounds unrounded = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::none, 8, "volume");
+  ASSERT_EQ(found.blocks.min.size(), 25u);
+  const double slack = 3.0 * found.scale.step;
+  for (std::size_t n = 0; n < 25; ++n) {
+    const double wider = unrounded.scale.value(unrounded.blocks.min[n]) - found.scale.value(found.blocks.min[n]);
+    EXPECT_GE(wider, -slack);
+    EXPECT_LE(wider, 255.0 / 510.0 + slack);
+    if (n > 14) EXPECT_LE(wider, slack) << "bricks of nothing but 7s, and their neighbours too";
+  }
 }
 
 /// Notes the largest box that is read.
