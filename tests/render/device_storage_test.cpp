@@ -33,7 +33,9 @@ Volume hills(LatticeKind lattice, const Extents& n) {
   return volume;
 }
 
-/// The prefilters that a small volume of each lattice is looked at with.
+constexpr double kSummit = 119.3;  // about the hills' tops alone
+
+/// A small volume of each spline's lattice.
 struct Case {
   std::string spline;
   Volume volume;
@@ -50,7 +52,7 @@ std::vector<Case> cases() {
 DirectVolume glow() {
   DirectVolume volume;
   volume.function.colors = {{90.0, {0.1, 0.3, 0.9}}, {130.0, {0.9, 0.5, 0.1}}};
-  volume.function.opacities = {{100.0, 0.0}, {106.0, 0.3}, {112.0, 0.0}, {118.0, 0.0}, {124.0, 0.5}};
+  volume.function.opacities = {{114.0, 0.0}, {117.0, 0.5}, {119.0, 0.0}, {122.0, 0.0}, {124.0, 0.8}};
   return volume;
 }
 
@@ -123,33 +125,31 @@ TEST_F(DeviceStorageTest, VolumesAreTheReferencesOfTheStoredCoefficients) {
       const Renderer::Config config = config_of(c.spline, storage);
       RenderStats stats;
       const Difference d = compare(picture(c.volume, config, request, stats), reference(c.volume, config, request), 1.0);
-      EXPECT_GT(d.hits, 200u);
+      EXPECT_GT(d.hits, 100u);
       EXPECT_EQ(d.off_color, 0u);
     }
 }
 
 TEST_F(DeviceStorageTest, NoStructureChangesAPixel) {
-  for (const Case& c : cases()) {
-    for (const Storage storage : kPacked) {
-      // Each storage sees another half of the structures.
-      DeviceRenderer renderer(test_kernels(), c.volume, config_of(c.spline, storage));
-      for (const bool seen_as_volume : {false, true}) {
-        Renderer::Request request = request_for(c.volume, 109.7, 32, 200.0, -30.0);
-        if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow();
-        request.skip = {.structure = "none"};
-        RenderStats stats;
-        const Frame truth = renderer.render(request, stats);
-        EXPECT_GT(stats.hits, 100u);
-        std::size_t n = std::size_t(storage);
-        for (const std::string_view label : skip_labels()) {
-          if (++n % 3 != 0) continue;
-          for (const int block : {1, 4}) {
-            SCOPED_TRACE(c.spline + ", " + storage_name(storage) + ", " + std::string(label) + ", " + std::to_string(block));
-            request.skip = labelled_skip(label, {.block = block, .cell_test = block == 4});
-            expect_same_picture(renderer.render(request, stats), truth);
-            EXPECT_LT(stats.active_blocks, stats.blocks);
-          }
-        }
+  const std::vector<Case> all = cases();
+  std::size_t n = 0;
+  for (const Storage storage : kPacked) {
+    const Case& c = all[std::size_t(storage) % all.size()];
+    DeviceRenderer renderer(test_kernels(), c.volume, config_of(c.spline, storage));
+    for (const bool seen_as_volume : {false, true}) {
+      Renderer::Request request = request_for(c.volume, kSummit, 32, 200.0, -30.0);
+      if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow();
+      request.skip = {.structure = "none"};
+      RenderStats stats;
+      const Frame truth = renderer.render(request, stats);
+      EXPECT_GT(stats.hits, 100u);
+      for (const std::string_view label : skip_labels()) {
+        // Each storage sees others, a volume fewer.
+        if (label == "none" || ++n % (seen_as_volume ? 7 : 3) != 0) continue;
+        SCOPED_TRACE(c.spline + ", " + storage_name(storage) + ", " + std::string(label));
+        request.skip = labelled_skip(label, {.block = 2, .cell_test = n % 2 == 0});
+        expect_same_picture(renderer.render(request, stats), truth);
+        EXPECT_LT(stats.active_blocks, stats.blocks);
       }
     }
   }
@@ -196,9 +196,9 @@ TEST_F(DeviceStorageTest, SeveralBuffersShowWhatOneDoes) {
   for (const Storage storage : kPacked) {
     RenderStats stats;
     const Frame one = picture(c.volume, config_of(c.spline, storage), request, stats);
-    const Frame several = picture(c.volume, config_of(c.spline, storage), request, stats, {.texel_elements = 700});
+    const Frame several = picture(c.volume, config_of(c.spline, storage), request, stats, {.texel_elements = 1100});
     expect_same_picture(several, one);
-    EXPECT_EQ(bytes_of(stats, "coefficients") % (512 * storage_bytes(storage)), 0u);
+    EXPECT_EQ(bytes_of(stats, "coefficients") % (1024 * storage_bytes(storage)), 0u);
   }
 }
 
@@ -206,22 +206,25 @@ TEST_F(DeviceStorageTest, APoolShowsTheSameWithAnyNumberOfSlotsAndWhateverIsSkip
   for (const Case& c : cases())
     for (const Storage storage : kPacked)
       for (const bool seen_as_volume : {false, true}) {
+        if (c.spline != "bcc7" && (storage != Storage::unorm8 || seen_as_volume)) continue;  // kernels are the same, their compilation takes long
         SCOPED_TRACE(c.spline + ", " + storage_name(storage));
-        Renderer::Request request = request_for(c.volume, 109.7, 24);
+        Renderer::Request request = request_for(c.volume, kSummit, 24);
         if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow();
-        DeviceRenderer roomy = pooled(c, storage, 8, 1000), cramped = pooled(c, storage, 8, 2, {.texel_elements = storage == Storage::unorm8 ? 800u : 0u});
+        DeviceRenderer roomy = pooled(c, storage, 8, 1000), cramped = pooled(c, storage, 8, 2);
         RenderStats stats;
         request.skip = {.structure = "none"};
         const Frame truth = roomy.render(request, stats);
+        EXPECT_GT(stats.hits, 50u);
         EXPECT_EQ(stats.storage, storage_name(storage));
         expect_same_picture(cramped.render(request, stats), truth);
+        EXPECT_GT(stats.bricks.evictions, 0u);
         const BrickLayout layout(c.volume.lattice, c.volume.extents, make_spline(c.spline)->apron(), 8);
         EXPECT_EQ(stats.bricks.loaded_bytes * 4, stats.bricks.loads * layout.slot_bytes() * storage_bytes(storage));
-        for (const std::string_view label : {"grid", "octree", "bvh", "distance"}) {
-          request.skip = labelled_skip(label, {.block = 4});
+        for (const int block : {1, 2, 4}) {
+          request.skip = {.structure = "grid", .block = block};
           expect_same_picture(roomy.render(request, stats), truth);
+          EXPECT_LT(stats.active_blocks, stats.blocks);
         }
-        EXPECT_LT(stats.active_blocks, stats.blocks);
       }
 }
 
