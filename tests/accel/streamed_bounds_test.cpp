@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "accel/brick_errors.h"
 #include "lattice/error.h"
 #include "spline/box_coefficients.h"
 
@@ -102,28 +103,22 @@ TEST(StreamedBounds, SayTheRangeOfTheSamplesAndTheScaleOfTheWholeVolume) {
   EXPECT_EQ(bounds.scale.displacement, scale.displacement);
 }
 
-/// The numbers of a brick's slot as a kernel decodes them.
-std::vector<float> decoded_slot(const Volume& volume, const Spline& spline, Spline::Prefilter prefilter, const BrickLayout& layout, const glm::ivec3& brick) {
+/// The coefficients of a brick's slot as a kernel decodes them.
+Coefficients<double> decoded_slot(const Volume& volume, const Spline& spline, Spline::Prefilter prefilter, const BrickLayout& layout, const glm::ivec3& brick) {
   std::vector<float> slot(std::size_t(layout.slot_floats()));
   box_coefficients(VolumeSource(volume), spline, prefilter, {}, {layout.first_index(brick), Extents(layout.samples)}, slot);
   const NumberRange range = range_of(slot);
   const ValueUnit unit = storage_unit(layout.storage, range.low, range.high);
-  for (float& number : slot) {
-    const float product = float(unit.scale) * stored_number(layout.storage, storage_bits(layout.storage, unit.number(number)));
-    number = float(unit.offset) + product;
-  }
-  return slot;
-}
-
-/// The spline's value at u, of the cell's brick alone.
-double value_in_brick(const Spline& spline, const BrickLayout& layout, const std::vector<float>& slot, const glm::i64vec3& cell, const glm::dvec3& u) {
-  const glm::i64vec3 brick = cell / std::int64_t(layout.edge);
   Coefficients<double> c;
   c.lattice = layout.lattice;
   c.apron = layout.apron;
   c.extents = Extents(layout.samples - 2 * layout.apron);
-  c.data.assign(slot.begin(), slot.end());
-  return spline.evaluate(c, u - glm::dvec3(brick * std::int64_t(layout.edge))).value;
+  for (const float number : slot) {
+    const float product = float(unit.scale) * stored_number(layout.storage, storage_bits(layout.storage, unit.number(number)));
+    const float decoded = float(unit.offset) + product;
+    c.data.push_back(decoded);
+  }
+  return c;
 }
 
 TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
@@ -143,7 +138,7 @@ TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
         std::mt19937 random(5);
         for (int n = 0; n < (edge == 4 ? 20 : 4); ++n) {
           const glm::ivec3 brick(int(random() % unsigned(layout.bricks.x)), int(random() % unsigned(layout.bricks.y)), int(random() % unsigned(layout.bricks.z)));
-          const std::vector<float> slot = decoded_slot(volume, *spline, prefilter, layout, brick);
+          const Coefficients<double> slot = decoded_slot(volume, *spline, prefilter, layout, brick);
           for (int k = 0; k < 300; ++k) {
             glm::i64vec3 cell;
             glm::dvec3 u;
@@ -152,7 +147,7 @@ TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
               cell[a] = first + (k % 3 == a ? 0 : std::int64_t(random() % std::uint64_t(count)));
               u[a] = double(cell[a]) + (k % 3 == a ? 0.0 : std::uniform_real_distribution<double>(0.0, 0.999)(random));
             }
-            const double value = value_in_brick(*spline, layout, slot, cell, u);
+            const double value = spline->evaluate(slot, u - glm::dvec3(brick * edge)).value;
             // The cell's own block, and at the brick's lower face the one before it.
             glm::i64vec3 before = cell;
             before[k % 3] = std::max<std::int64_t>(before[k % 3] - 1, 0);
@@ -168,6 +163,34 @@ TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
       }
   }
   EXPECT_GT(beyond_unrounded, 100u) << "nothing was put to the test";
+}
+
+TEST(BrickErrors, AreThoseOfTheWorstOfABrickAndItsNeighboursHoweverCoefficientsCome) {
+  // 7 x 2 x 1 bricks of 4 cells, all coefficients 3 but one of 103 inside brick (2, 0, 0).
+  const auto spline = make_spline("trilinear");
+  Coefficients<float> c;
+  c.lattice = LatticeKind::cartesian;
+  c.extents = {29, 9, 5};
+  c.apron = spline->apron();
+  c.data.assign(std::size_t(c.stride_coset()), 3.0f);
+  c.data[c.number(0, {10, 2, 2})] = 103.0f;
+  const BrickLayout layout(c.lattice, c.extents, c.apron, 4, Storage::unorm8);
+  BrickErrors whole(layout), parts(layout);
+  whole.add(c, glm::i64vec3(-c.apron));
+  for (std::int64_t x = 0; x < 29; x += 3) {  // slabs of three samples, none the size of a brick
+    Coefficients<float> slab = c;
+    slab.extents = {3, 9, 5};
+    slab.data.assign(std::size_t(slab.stride_coset()), 3.0f);
+    if (x == 9) slab.data[slab.number(0, {1, 2, 2})] = 103.0f;
+    parts.add(slab, glm::i64vec3(x, 0, 0) - std::int64_t(c.apron));
+  }
+  const double constant = storage_error(Storage::unorm8, 3.0, 3.0), worst = storage_error(Storage::unorm8, 3.0, 103.0);
+  EXPECT_NEAR(worst, 50.0 / 255, 1e-3);
+  for (const BrickErrors* errors : {&whole, &parts})
+    for (std::int32_t n = 0; n < layout.count(); ++n) {
+      const glm::ivec3 brick = layout.brick(n);
+      EXPECT_EQ(errors->errors()[std::size_t(n)], brick.x >= 1 && brick.x <= 3 ? worst : constant) << brick.x << ' ' << brick.y;
+    }
 }
 
 TEST(StreamedBounds, OfStoredBricksAreWiderByHalfAStepOfTheWidestNearAndNoMore) {
