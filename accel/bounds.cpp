@@ -123,6 +123,13 @@ BoundsScale bounds_scale(const Spline& spline, Spline::Prefilter prefilter, doub
   return scale_of(row, middle - half - rounding, middle + half + rounding, cells);
 }
 
+double value_error(const Spline& spline, const BoundsScale& scale, double error) {
+  // The net moves by at most net_gain errors, and widths by twice that.
+  const Row& row = row_of(spline);
+  const Margin margin = row.margin(scale.displacement);
+  return (row.net_gain * (1.0 + 2.0 * margin.per_width) + 2.0 * margin.per_near_width + margin.per_magnitude) * error;
+}
+
 CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const BoundsScale& scale) {
   assert(c.lattice == spline.lattice() && c.apron >= spline.apron());
   return bounds_on(row_of(spline), c, scale, Surroundings::unknown, {});

@@ -45,6 +45,9 @@ double ray_displacement(const glm::i64vec3& cells);
 /// a volume of `cells` (cell_count of all of it).
 BoundsScale bounds_scale(const Spline& spline, Spline::Prefilter prefilter, double sample_min, double sample_max, const glm::i64vec3& cells);
 
+/// How much wider, on either side, bounds have to be for any spline each of whose coefficients is within `error` of one that they are for.
+double value_error(const Spline& spline, const BoundsScale& scale, double error);
+
 /// Bounds on `scale` over the cells of a box cut out of a volume, certain for each cell whose coefficients are the volume's: those that
 /// reach it, no farther, all within the box's extents. What is outside the box may be anything that the scale allows.
 CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const BoundsScale& scale);

@@ -25,8 +25,8 @@ std::int64_t reach(const BrickLayout& layout, const glm::ivec3& brick) {
 
 }  // namespace
 
-BrickLayout::BrickLayout(LatticeKind lattice_, const Extents& extents_, int apron_, int edge_)
-    : lattice(lattice_), extents(extents_), apron(apron_), edge(edge_) {
+BrickLayout::BrickLayout(LatticeKind lattice_, const Extents& extents_, int apron_, int edge_, Storage storage_)
+    : lattice(lattice_), extents(extents_), apron(apron_), edge(edge_), storage(storage_) {
   if (edge < kLeastEdge || edge > kMostEdge || !std::has_single_bit(unsigned(edge)))
     throw InputError(fmt::format("--brick: found {}, expected a power of two from {} to {}", edge, kLeastEdge, kMostEdge));
   const glm::i64vec3 n = (cell_count(lattice, extents) + std::int64_t(edge - 1)) / std::int64_t(edge);

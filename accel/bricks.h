@@ -11,6 +11,7 @@
 
 #include "accel/classification.h"
 #include "lattice/lattice.h"
+#include "spline/storage.h"
 
 namespace quincunx {
 
@@ -34,9 +35,10 @@ struct BrickLayout {
   int edge = 32;       ///< cells, a power of two
   glm::ivec3 bricks{0};
   int samples = 0;  ///< of a slot, each coset, an axis
+  Storage storage = Storage::float32;  ///< of coefficients in a slot
 
   /// Checks `edge`, 4..256 and a power of two, and that every brick has a number and an origin. Throws InputError naming --brick.
-  BrickLayout(LatticeKind lattice, const Extents& extents, int apron, int edge);
+  BrickLayout(LatticeKind lattice, const Extents& extents, int apron, int edge, Storage storage = Storage::float32);
 
   std::int64_t count() const { return std::int64_t(bricks.x) * bricks.y * bricks.z; }
   /// Bricks are numbered x fastest.
@@ -53,7 +55,7 @@ struct BrickLayout {
   /// Numbers of coefficients per index along y, along z, and from the first coset to the second.
   glm::ivec3 strides() const { return {samples, samples * samples, samples * samples * samples}; }
   std::int64_t slot_floats() const { return std::int64_t(coset_count(lattice)) * samples * samples * samples; }
-  std::uint64_t slot_bytes() const { return std::uint64_t(slot_floats()) * sizeof(float); }
+  std::uint64_t slot_bytes() const { return std::uint64_t(slot_floats()) * storage_bytes(storage); }
 
   /// What a page table holds of a brick in `slot`: the number in the pool of (coset 0; index 0,0,0), which may lie outside of it, so that
   /// coefficient (c; i,j,k) of the whole volume's numbering is number origin + c strides.z + i + j strides.x + k strides.y.

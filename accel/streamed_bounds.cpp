@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
+#include "accel/brick_errors.h"
 #include "lattice/shared_progress.h"
 #include "spline/box_coefficients.h"
 
@@ -23,10 +25,16 @@ struct Task {
   Spline::Prefilter prefilter;
   const ValueUnit& unit;
   const BoundsScale& scale;
+  BrickErrors* errors;  ///< null where coefficients are not rounded
 };
 
 /// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond.
 std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : 0; }
+
+/// The index of the first coefficient of a box's.
+glm::i64vec3 first_of_box(const Spline& spline, const glm::i64vec3& low) {
+  return (low - ring(spline)) / std::int64_t(lattice_step(spline.lattice())) - std::int64_t(spline.apron());
+}
 
 /// The coefficients of the cells low - ring <= cell < low + cells + ring, perhaps of some more.
 Coefficients<float> box_of(const Task& task, const glm::i64vec3& low, const glm::i64vec3& cells) {
@@ -37,7 +45,7 @@ Coefficients<float> box_of(const Task& task, const glm::i64vec3& low, const glm:
   c.extents = (cells + 2 * more + step - std::int64_t(1)) / step + std::int64_t(1);  // the corners of these cells
   c.apron = spline.apron();
   c.data.resize(std::size_t(coset_count(c.lattice) * c.stride_coset()));
-  box_coefficients(task.source, spline, task.prefilter, task.unit, {(low - more) / step - std::int64_t(c.apron), c.padded()}, c.data);
+  box_coefficients(task.source, spline, task.prefilter, task.unit, {first_of_box(spline, low), c.padded()}, c.data);
   return c;
 }
 
@@ -88,11 +96,34 @@ void widen_by_constant(const Spline& spline, const Coefficients<float>& box, con
 /// Widens the blocks by the box low <= cell < low + cells.
 void add_box(const Task& task, const glm::i64vec3& low, const glm::i64vec3& cells, BlockBounds& blocks) {
   const Coefficients<float> c = box_of(task, low, cells);
+  if (task.errors) task.errors->add(c, first_of_box(task.spline, low));
   if (std::all_of(c.data.begin(), c.data.end(), [&](float f) { return f == c.data[0]; })) {
     widen_by_constant(task.spline, c, task.scale, low, cells, blocks);
   } else {
     widen_by_box(cell_bounds(task.spline, c, task.scale), ring(task.spline), low, cells, blocks);
   }
+}
+
+/// Widens each block by what rounding its brick's coefficients, and those of the bricks beside it, may add.
+void widen_by_errors(const Spline& spline, const BoundsScale& scale, const BrickLayout& layout, const BrickErrors& errors, BlockBounds& blocks) {
+  assert(blocks.block <= layout.edge);
+  const std::vector<double> largest = errors.errors();
+  const std::int64_t per_brick = layout.edge / blocks.block;
+  for (std::int64_t z = 0; z < blocks.blocks.z; ++z)
+    for (std::int64_t y = 0; y < blocks.blocks.y; ++y)
+      for (std::int64_t x = 0; x < blocks.blocks.x; ++x) {
+        const double wider = value_error(spline, scale, largest[std::size_t(layout.number(glm::ivec3(x / per_brick, y / per_brick, z / per_brick)))]);
+        const double steps = std::min(std::ceil(wider / scale.step * (1.0 + 1e-9)), 65535.0);
+        const std::size_t n = std::size_t((z * blocks.blocks.y + y) * blocks.blocks.x + x);
+        blocks.min[n] = std::uint16_t(std::max(double(blocks.min[n]) - steps, 0.0));
+        blocks.max[n] = std::uint16_t(std::min(double(blocks.max[n]) + steps, 65535.0));
+      }
+}
+
+/// The largest error of any brick's coefficients, those that `gain` may make of numbers from low to high.
+double largest_error(Storage storage, double gain, double low, double high) {
+  const double middle = 0.5 * (low + high), half = 0.5 * (high - low) * gain;
+  return storage_error(storage, middle - half, middle + half);
 }
 
 /// Blocks of at most kMostBlock cells.
@@ -116,7 +147,7 @@ BlockBounds small_blocks(const Task& task, int block, const Progress& progress) 
 }  // namespace
 
 StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, int block,
-                               std::string_view what, const Progress& progress, const std::optional<SampleRange>& known) {
+                               std::string_view what, const Progress& progress, const std::optional<SampleRange>& known, const BrickLayout* bricks) {
   const Volume& header = source.header();
   assert(header.lattice == spline.lattice());
   check_block(block);
@@ -124,9 +155,15 @@ StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline,
   bounds.samples = known ? *known : sample_range(source, [&](double fraction) { report(progress, kRangePart * fraction); });
   check_finite(bounds.samples, header, what);
   bounds.unit = float_unit(header.type(), bounds.samples.min, bounds.samples.max);
-  bounds.scale = bounds_scale(spline, prefilter, bounds.unit.number(bounds.samples.min), bounds.unit.number(bounds.samples.max), cell_count(header.lattice, header.extents));
-  bounds.blocks = small_blocks({source, spline, prefilter, bounds.unit, bounds.scale}, std::min(block, kMostBlock),
+  const bool rounds = bricks && bricks->storage != Storage::float32;
+  const double low = bounds.unit.number(bounds.samples.min), high = bounds.unit.number(bounds.samples.max);
+  const double error = rounds ? largest_error(bricks->storage, spline.filter(prefilter).gain, low, high) : 0.0;
+  bounds.scale = bounds_scale(spline, prefilter, low - error, high + error, cell_count(header.lattice, header.extents));
+  std::optional<BrickErrors> errors;
+  if (rounds) errors.emplace(*bricks);
+  bounds.blocks = small_blocks({source, spline, prefilter, bounds.unit, bounds.scale, errors ? &*errors : nullptr}, std::min(block, kMostBlock),
                                [&](double fraction) { report(progress, kRangePart + (1.0 - kRangePart) * fraction); });
+  if (errors) widen_by_errors(spline, bounds.scale, *bricks, *errors, bounds.blocks);
   if (block > kMostBlock) bounds.blocks = coarser(bounds.blocks, block);
   report(progress, 1.0);
   return bounds;

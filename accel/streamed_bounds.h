@@ -4,9 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "accel/classification.h"
+#include "accel/bricks.h"
 #include "lattice/sample_source.h"
-#include "spline/value_unit.h"
 
 namespace quincunx {
 
@@ -24,8 +23,12 @@ struct StreamedBounds {
 ///
 /// Two passes over the samples, for their range, where that is not `known`, and for the bounds. Beside the result each thread holds one box, of at most 512 x 64 x 64
 /// cells, with what is made of it.
+/// `bricks`, where given, are how coefficients will be stored: each brick in a unit of its own. The bounds are then of what kernels make of these, in the brick
+/// that a cell belongs to or, at a brick's face, in the one beside it: wider by what rounding to the format may add there (value_error of BrickErrors). Blocks are
+/// no larger than bricks.
 /// Throws InputError, naming `what`, where samples are NaN or infinite (count and first place), and where they cannot be read.
 StreamedBounds streamed_bounds(const SampleSource& source, const Spline& spline, Spline::Prefilter prefilter, int block,
-                               std::string_view what, const Progress& progress = {}, const std::optional<SampleRange>& known = {});
+                               std::string_view what, const Progress& progress = {}, const std::optional<SampleRange>& known = {},
+                               const BrickLayout* bricks = nullptr);
 
 }  // namespace quincunx

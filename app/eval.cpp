@@ -29,15 +29,10 @@ struct EvalFlags {
   std::string spline;  ///< empty: that of the volume's lattice
   Precision precision = Precision::exact_double;
   Spline::Prefilter prefilter = Spline::Prefilter::automatic;
+  Storage storage = Storage::float32;
   NanPolicy nan;
   Verbosity verbosity = Verbosity::normal;
 };
-
-/// The unit that kernels would have its coefficients in.
-ValueUnit unit_of(const Volume& volume) {
-  const SampleRange range = sample_range(volume);
-  return float_unit(volume.type(), range.min, range.max);
-}
 
 /// The spline of a volume, evaluated in the world.
 class WorldSpline {
@@ -50,11 +45,13 @@ class WorldSpline {
         inverse_axes_(glm::inverse(volume.world.axes)),
         far_(domain_max(volume.lattice, volume.extents)),
         voids_(make_finite(volume, *spline_, flags.nan)) {
-    if (precision_ == Precision::exact_double) {
+    const bool doubles = precision_ == Precision::exact_double, rounded = flags.storage != Storage::float32;
+    if (doubles && !rounded) {
       coefficients_ = spline_->coefficients(volume, flags.prefilter, progress);
     } else {
-      float_coefficients_ = spline_->coefficients_float(volume, flags.prefilter, unit_of(volume), progress);
+      float_coefficients_ = stored_coefficients(*spline_, volume, flags.prefilter, flags.storage, progress);
     }
+    if (doubles && rounded) coefficients_ = values_of(float_coefficients_);
   }
 
   /// Value and gradient per world unit at x (world); NaN outside the domain and in void cells. A point outside by no more than the
@@ -138,7 +135,8 @@ Command eval_command(CLI::App& program) {
       "A point outside the domain gets nan, and with --nan empty one in a cell where a sample that is not finite has a weight.\n"
       "--precision double: coefficients and evaluation in double, the reference that kernels are compared with.\n"
       "--precision float: coefficients and weights rounded to 32-bit floats, multiplied and added in floats; the\n"
-      "  weights are found in double, so this is the least that single precision loses, not a kernel's own order.");
+      "  weights are found in double, so this is the least that single precision loses, not a kernel's own order.\n"
+      "--storage other than float32: of the coefficients as a device decodes them, in either precision.");
   app->add_option("VOLUME", flags->volume, "NRRD file")->required();
   app->add_option("--points", flags->points, "CSV file of points x,y,z (world), with or without a header line")
       ->type_name("P.csv")
@@ -147,6 +145,7 @@ Command eval_command(CLI::App& program) {
              {{"double", Precision::exact_double}, {"float", Precision::single_float}}, "Of coefficients and sums");
   add_spline(*app, flags->spline);
   add_prefilter(*app, flags->prefilter);
+  add_storage(*app, flags->storage);
   add_nan(*app, flags->nan);
   add_quiet(*app, flags->verbosity);
   return {app, [flags] { eval(*flags); }};

@@ -16,6 +16,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "lattice/error.h"
+#include "render/coefficient_texels.h"
 
 namespace quincunx {
 namespace {
@@ -98,6 +99,7 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   add_spline(app, flags.config.spline)->group(group);
   add_prefilter(app, flags.config.prefilter)->group(group);
   add_precision(app, flags)->group(group);
+  add_storage(app, flags.config.storage)->group(group);
   add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
              "The spline's gradient, or central differences")
       ->group(group);
@@ -204,6 +206,7 @@ void check_render_flags(const RenderFlags& flags) {
   }
   check_count(flags.colors.size(), flags.isovalues.size(), "--color");
   check_count(flags.opacities.size(), flags.isovalues.size(), "--opacity");
+  check_storage(flags.config.storage, flags.config.precision);
   if (flags.config.precision == Precision::float64 && flags.config.pool_bytes)
     throw InputError("--precision: found double with --pool, expected float: bricks hold 32-bit floats");
   check_camera_flags(flags.camera);

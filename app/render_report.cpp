@@ -93,6 +93,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
   if (scene.normal == Normal::central) json["delta"] = scene.delta;
   json["precision"] = precision_name(stats.precision);
+  json["storage"] = stats.storage;
   json["structure"] = stats.skip.structure;
   if (stats.skip.structure == "bvh") json["cluster"] = clustering_name(stats.skip.clustering);
   if (stats.skip.structure == "kdtree") json["kd"] = kd_name(stats.skip.kd);

@@ -34,4 +34,10 @@ CLI::Option* add_prefilter(CLI::App& app, Spline::Prefilter& prefilter) {
                     "From samples to coefficients: the spline's own of full order, none, a short mask (fir), or interpolation (iir)");
 }
 
+CLI::Option* add_storage(CLI::App& app, Storage& storage) {
+  std::vector<std::pair<std::string, Storage>> choices;
+  for (const Storage kind : kStorages) choices.emplace_back(storage_name(kind), kind);
+  return add_choice(app, "--storage", storage, choices, "Of coefficients on the device: 32-bit floats, or rounded to 16 or 8 bits");
+}
+
 }  // namespace quincunx

@@ -1,10 +1,11 @@
-// --spline and --prefilter: how a volume is reconstructed.
+// --spline, --prefilter and --storage: how a volume is reconstructed.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 #include "spline/spline.h"
+#include "spline/storage.h"
 
 namespace quincunx {
 
@@ -13,5 +14,8 @@ CLI::Option* add_spline(CLI::App& app, std::string& spline);
 
 /// "--prefilter".
 CLI::Option* add_prefilter(CLI::App& app, Spline::Prefilter& prefilter);
+
+/// "--storage".
+CLI::Option* add_storage(CLI::App& app, Storage& storage);
 
 }  // namespace quincunx

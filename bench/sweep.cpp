@@ -25,6 +25,7 @@
 #include "bench/views.h"
 #include "io/atomic_file.h"
 #include "lattice/error.h"
+#include "render/coefficient_texels.h"
 
 namespace quincunx {
 namespace {
@@ -90,7 +91,11 @@ void write_outputs(const SweepReport& report, const OutputFolder& folder) {
 void check_sweep_flags(const SweepFlags& flags) {
   check_something_is_seen(flags.scene);
   refuse_reference(flags.device);
+  check_storage(flags.scene.config.storage, flags.scene.config.precision);
   if (flags.bricks.empty()) return;
+  if (flags.scene.config.storage != Storage::float32)
+    throw InputError(fmt::format("--bricks: found --storage {}, expected float32: each brick would have a unit of its own, and its picture would not be the whole volume's",
+                                 storage_name(flags.scene.config.storage)));
   if (flags.scene.config.precision == Precision::float64)
     throw InputError("--bricks: found --precision double, expected --precision float: bricks hold 32-bit floats");
   if (!flags.scene.isovalues.empty() && flags.scene.scene.intersect == Intersect::march)
@@ -118,6 +123,7 @@ void sweep(const SweepFlags& flags) {
                      .intersect = scene.intersect,
                      .step = scene.step,
                      .precision = flags.scene.config.precision,
+                     .storage = flags.scene.config.storage,
                      .choices = flags.choices,
                      .machine = {},
                      .settings = {},
@@ -146,6 +152,7 @@ void add_scene_flags(CLI::App& app, RenderFlags& flags) {
   add_prefilter(app, flags.config.prefilter);
   add_nan(app, flags.config.nan);
   add_precision(app, flags);
+  add_storage(app, flags.config.storage);
   add_volume_flags(app, flags.look);
 }
 

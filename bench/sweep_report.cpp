@@ -11,6 +11,7 @@
 
 #include "accel/structure.h"
 #include "app/render_report.h"
+#include "render/coefficient_texels.h"
 
 namespace quincunx {
 namespace {
@@ -209,6 +210,7 @@ std::string sweep_method(const SweepReport& report) {
     parts.push_back(fmt::format("{}{}, steps of {} cell{}", report.look->classify == Classify::post ? "post" : "pre-integrated",
                                 report.look->shade ? "" : ", unlit", report.look->step, report.look->step == 1.0 ? "" : "s"));
   if (report.precision == Precision::float64) parts.push_back("in 64-bit floats");
+  if (report.storage != Storage::float32) parts.push_back(fmt::format("coefficients in {}", storage_name(report.storage)));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -338,6 +340,7 @@ Json sweep_json(const SweepReport& report) {
             {"intersect", report.intersect == Intersect::exact ? "exact" : "march"}};
   if (report.intersect == Intersect::march) json["step"] = report.step;
   json["precision"] = precision_name(report.precision);
+  json["storage"] = CoefficientFormat{.precision = report.precision, .storage = report.storage}.name();
   if (report.look) {
     json["transfer_function"] = volume_json(*report.look);
     json["transfer_function"]["file"] = report.transfer_function;

@@ -24,6 +24,7 @@ struct SweepReport {
   Intersect intersect = Intersect::exact;
   double step = 0.0;  ///< of march, in cells
   Precision precision = Precision::float32;
+  Storage storage = Storage::float32;  ///< of coefficients, where precision is float32
   SweepChoices choices;
   Machine machine;
   std::vector<SweepSetting> settings;      ///< as they were planned; the first one is none
@@ -40,7 +41,7 @@ struct SweepReport {
 
 /// "isovalues 1.5, 2" or "transfer function head.json", or both.
 std::string sweep_subject(const SweepReport& report);
-/// "exact" or "march 0.25", "post, steps of 1 cell", or both, and whether in 64-bit floats.
+/// "exact" or "march 0.25", "post, steps of 1 cell", or both, and whether in 64-bit floats, or with coefficients of 16 or 8 bits.
 std::string sweep_method(const SweepReport& report);
 
 /// What was measured where, and what the marks mean, in sentences.

@@ -23,9 +23,7 @@ void check_texels(const Device& device, std::uint64_t bytes, VkFormat format, co
   if (texel == 0 || bytes < texel) {
     throw std::runtime_error(fmt::format("{}: {} bytes hold no texel of {}", label, bytes, texel_format_name(format)));
   }
-  VkFormatProperties properties{};
-  vkGetPhysicalDeviceFormatProperties(device.physical, format, &properties);
-  if (!(properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT)) {
+  if (!reads_texels(device, format)) {
     throw DeviceError(
         fmt::format("{}: {} has no texel buffers of {}", label, device.info.name, texel_format_name(format)));
   }
@@ -84,6 +82,12 @@ void fill_with_zeros(Device& device, const Allocation& allocation) {
 }
 
 }  // namespace
+
+bool reads_texels(const Device& device, VkFormat format) {
+  VkFormatProperties properties{};
+  vkGetPhysicalDeviceFormatProperties(device.physical, format, &properties);
+  return (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
+}
 
 Buffer create_buffer(Device& device, std::uint64_t bytes, BufferUse use, const std::string& label,
                      VkFormat texel_format) {

@@ -29,6 +29,9 @@ struct Buffer {
   VkDeviceAddress address = 0;  ///< where the device has features().buffer_address, else 0
 };
 
+/// Whether kernels of the device can read texel buffers of that format.
+bool reads_texels(const Device& device, VkFormat format);
+
 /// Throws DeviceError naming `label` and the bytes where memory is short or a limit (see BufferUse) is passed, where
 /// the device cannot read `texel_format`, or has no addresses for BufferUse::address.
 /// Contents start as zeros. `bytes` 0 is taken as 4. `texel_format` is for BufferUse::texel alone; bytes after the

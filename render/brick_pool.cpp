@@ -53,7 +53,7 @@ void BrickPool::load(std::span<const Load> loads, const Upload& upload, const Pr
     });
     for (std::size_t n = 0; n < now.size(); ++n) {
       const auto& [brick, slot, needed] = now[n];
-      upload(slot * floats, staged(n));
+      upload(brick, slot * floats, staged(n));
       slots_[std::size_t(slot)] = {brick, needed};
       slot_of_[std::size_t(brick)] = slot;
       page_table_[std::size_t(brick)] = layout_.origin(layout_.brick(brick), slot);

@@ -24,12 +24,12 @@ class BrickPool {
   /// What the page table holds of a brick that is not resident; no origin has this value.
   static constexpr std::int32_t kNotResident = std::numeric_limits<std::int32_t>::min();
 
-  /// Puts a slot's numbers where the kernel finds them: from number `first` of the pool on. Called from the thread that calls
+  /// Puts a brick's numbers, those of its slot, where the kernel finds them: from number `first` of the pool on. Called from the thread that calls
   /// make_resident, once for each slot that is filled.
-  using Upload = std::function<void(std::int64_t first, std::span<const float> slot)>;
+  using Upload = std::function<void(std::int32_t brick, std::int64_t first, std::span<const float> slot)>;
 
   struct Counters {
-    std::uint64_t loads = 0, evictions = 0, bytes = 0;  ///< since the pool was made; bytes: handed to Upload
+    std::uint64_t loads = 0, evictions = 0, bytes = 0;  ///< since the pool was made; bytes: of slots as they are stored
     int resident = 0, peak = 0;                         ///< bricks
   };
 

@@ -34,32 +34,39 @@ TexelLayout texel_layout(std::uint64_t numbers, std::uint64_t texel_elements, co
 
 std::uint64_t most_coefficients(std::uint64_t texel_elements) { return std::min(kMostNumbers, kMostBuffers * elements_of_each(texel_elements)); }
 
+void check_storage(Storage storage, Precision precision) {
+  if (storage != Storage::float32 && precision == Precision::float64)
+    throw InputError(fmt::format("--storage: found {} with --precision double, expected float32: coefficients are then 64-bit floats", storage_name(storage)));
+}
+
+VkFormat CoefficientFormat::texels() const {
+  if (precision == Precision::float64) return VK_FORMAT_R32G32_UINT;
+  switch (storage) {
+    case Storage::float32: return VK_FORMAT_R32_SFLOAT;
+    case Storage::float16: return VK_FORMAT_R16_SFLOAT;
+    case Storage::unorm16: return VK_FORMAT_R16_UNORM;
+    case Storage::unorm8: break;
+  }
+  return VK_FORMAT_R8_UNORM;
+}
+
 CoefficientTexels::CoefficientTexels(gpu::Device& device, std::uint64_t numbers, std::uint64_t texel_elements, const std::string& label,
-                                     Precision precision)
-    : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)), precision_(precision) {
+                                     const CoefficientFormat& format)
+    : layout_(texel_layout(numbers, texel_elements, gpu::info(device).name)), format_(format) {
   // Kernels read every buffer at every number: all are of one length.
-  each_ = (layout_.buffers == 1 ? numbers : std::uint64_t(1) << layout_.shift) * coefficient_bytes(precision);
-  const VkFormat format = precision == Precision::float32 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32_UINT;
+  each_ = (layout_.buffers == 1 ? numbers : std::uint64_t(1) << layout_.shift) * format.bytes();
   for (int i = 0; i < layout_.buffers; ++i)
-    buffers_.push_back(gpu::create_buffer(device, each_, gpu::BufferUse::texel, label, format));
+    buffers_.push_back(gpu::create_buffer(device, each_, gpu::BufferUse::texel, label, format.texels()));
 }
 
-void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const float> numbers) const {
-  assert(precision_ == Precision::float32);
-  upload_bytes(device, std::uint64_t(first) * sizeof(float), std::as_bytes(numbers));
-}
-
-void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const double> numbers) const {
-  assert(precision_ == Precision::float64);
-  upload_bytes(device, std::uint64_t(first) * sizeof(double), std::as_bytes(numbers));
-}
-
-void CoefficientTexels::upload_bytes(gpu::Device& device, std::uint64_t offset, std::span<const std::byte> bytes) const {
-  while (!bytes.empty()) {
+void CoefficientTexels::upload(gpu::Device& device, std::int64_t first, std::span<const std::byte> numbers) const {
+  assert(numbers.size() % format_.bytes() == 0);
+  std::uint64_t offset = std::uint64_t(first) * format_.bytes();
+  while (!numbers.empty()) {
     const std::uint64_t at = offset % each_;
-    const std::size_t count = std::size_t(std::min<std::uint64_t>(bytes.size(), each_ - at));
-    gpu::upload(device, buffers_[std::size_t(offset / each_)], bytes.first(count), at);
-    bytes = bytes.subspan(count);
+    const std::size_t count = std::size_t(std::min<std::uint64_t>(numbers.size(), each_ - at));
+    gpu::upload(device, buffers_[std::size_t(offset / each_)], numbers.first(count), at);
+    numbers = numbers.subspan(count);
     offset += count;
   }
 }

@@ -10,14 +10,33 @@ namespace quincunx {
 DeviceBricks::DeviceBricks(gpu::Device& device, const BrickLayout& layout, std::shared_ptr<const BrickSource> source, std::uint64_t pool_bytes,
                            std::uint64_t texel_elements)
     : device_(device), pool_(layout, std::move(source), pool_bytes),
-      texels_(device, std::uint64_t(pool_.floats()), texel_elements, "brick pool"), requested_(std::size_t(layout.count())) {
+      texels_(device, std::uint64_t(pool_.floats()), texel_elements, "brick pool", {.precision = Precision::float32, .storage = layout.storage}),
+      requested_(std::size_t(layout.count())) {
   page_table_ = gpu::create_filled(device_, std::as_bytes(pool_.page_table()), gpu::BufferUse::texel, "page table", VK_FORMAT_R32_SINT);
   requests_ = gpu::create_buffer(device_, requested_.size() * sizeof(std::uint32_t), gpu::BufferUse::storage, "requests");
+  if (!packed()) return;
+  units_.resize(requested_.size(), glm::vec2(0.0f));
+  packed_.resize(layout.slot_bytes());
+  unit_buffer_ = gpu::create_filled(device_, std::as_bytes(std::span(units_)), gpu::BufferUse::texel, "units of bricks", VK_FORMAT_R32G32_SFLOAT);
+}
+
+void DeviceBricks::upload_slot(std::int32_t brick, std::int64_t first, std::span<const float> slot) {
+  if (!packed()) return texels_.upload(device_, first, std::as_bytes(slot));
+  const NumberRange range = range_of(slot);
+  const ValueUnit unit = storage_unit(texels_.format().storage, range.low, range.high);
+  pack(texels_.format().storage, unit, slot, packed_);
+  units_[std::size_t(brick)] = {float(unit.offset), float(unit.scale)};
+  texels_.upload(device_, first, packed_);
+}
+
+void DeviceBricks::upload_entries(std::size_t first, std::size_t count) {
+  gpu::upload(device_, page_table_, std::as_bytes(pool_.page_table().subspan(first, count)), first * sizeof(std::int32_t));
+  if (packed()) gpu::upload(device_, unit_buffer_, std::as_bytes(std::span(units_).subspan(first, count)), first * sizeof(glm::vec2));
 }
 
 gpu::Resources DeviceBricks::resources() const {
   gpu::Resources all = texels_.resources();
-  all.insert(all.end(), {{"pageTable", page_table_}, {"Requests", requests_}});
+  all.insert(all.end(), {{"pageTable", page_table_}, {"Requests", requests_}, {"brickUnits", unit_buffer_}});
   return all;
 }
 
@@ -41,19 +60,16 @@ bool DeviceBricks::serve(const glm::dvec3& eye, const Progress& progress) {
   ++rounds_;
   const Stopwatch watch;
   sort_front_to_back(pool_.layout(), eye, wanted);
-  const auto upload = [this](std::int64_t first, std::span<const float> slot) { texels_.upload(device_, first, slot); };
+  const auto upload = [this](std::int32_t brick, std::int64_t first, std::span<const float> slot) { upload_slot(brick, first, slot); };
   std::vector<std::int32_t> changed;
   try {
     changed = pool_.make_resident(wanted, upload, progress);
   } catch (...) {
     // What was evicted and loaded before counts: the whole table goes to the device.
-    gpu::upload(device_, page_table_, std::as_bytes(pool_.page_table()));
+    upload_entries(0, requested_.size());
     throw;
   }
-  if (!changed.empty()) {
-    const std::size_t begin = std::size_t(changed.front()), count = std::size_t(changed.back()) - begin + 1;
-    gpu::upload(device_, page_table_, std::as_bytes(pool_.page_table().subspan(begin, count)), begin * sizeof(std::int32_t));
-  }
+  if (!changed.empty()) upload_entries(std::size_t(changed.front()), std::size_t(changed.back() - changed.front()) + 1);
   load_ms_ += watch.ms();
   return true;
 }
@@ -64,7 +80,7 @@ void DeviceBricks::describe(RenderStats& stats) const {
                   .resident = std::uint64_t(counters.resident), .loads = counters.loads, .evictions = counters.evictions,
                   .loaded_bytes = counters.bytes, .rounds = rounds_, .load_ms = load_ms_};
   stats.device_bytes.emplace_back("brick pool", texels_.bytes());
-  stats.device_bytes.emplace_back("page table", page_table_.bytes + requests_.bytes);
+  stats.device_bytes.emplace_back("page table", page_table_.bytes + requests_.bytes + unit_buffer_.bytes);
 }
 
 }  // namespace quincunx

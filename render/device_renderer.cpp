@@ -47,7 +47,9 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, const Volum
   const gpu::DeviceInfo& device_info = gpu::info(device_);
   if (limits_.texel_elements == 0) limits_.texel_elements = device_info.max_texel_buffer_elements;
   if (limits_.frame_bytes == 0) limits_.frame_bytes = device_info.max_storage_buffer_range;
+  check_storage(config.storage, config.precision);
   check_precision();
+  check_device_storage();
 }
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared_ptr<const SampleSource> source, const std::string& what,
@@ -67,6 +69,11 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<KernelCache> kernels, std::shared
 void DeviceRenderer::check_precision() const {
   if (config_.precision == Precision::float32 || (gpu::features(device_).float64 && !limits_.no_float64)) return;
   throw gpu::DeviceError(fmt::format("--precision: found double, expected float: {} has no 64-bit floats (shaderFloat64)", gpu::info(device_).name));
+}
+
+void DeviceRenderer::check_device_storage() const {
+  if (config_.storage == Storage::float32 || (gpu::reads_texels(device_, format().texels()) && !limits_.no_small_texels)) return;
+  throw gpu::DeviceError(fmt::format("--storage: found {}, expected float32: {} has no texel buffers of it", storage_name(config_.storage), gpu::info(device_).name));
 }
 
 void DeviceRenderer::check_cells() const {
@@ -115,6 +122,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.stub = request.scene.stub_sampling;
   v.cost = request.scene.cost || v.stub;
   v.bricks = source_ != nullptr;
+  v.brick_units = v.bricks && config_.storage != Storage::float32;
   v.voids = voids_ && voids_->count > 0;
   v.precision = config_.precision;
   v.coefficient_buffers = layout.buffers;
@@ -134,6 +142,8 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
   for (Feature& feature : features)
     if (feature.name == kSkipPart && !choice.why.empty()) feature.why = fmt::format("{}: {}", label, choice.why);
   const Spline::Prefilter prefilter = spline_->filter(config_.prefilter).kind;
+  features.push_back({"small coefficients", config_.storage != Storage::float32,
+                      fmt::format("--storage {}: {} bytes a coefficient", format().name(), format().bytes())});
   features.push_back({"prefilter pass", prefilter != Spline::Prefilter::none, fmt::format("{} of {}", prefilter_name(prefilter), spline_->name())});
   return features;
 }
@@ -154,7 +164,7 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   check_cells();
   if (source_) {
     const ValueUnit unit = source_unit(progress);
-    const BrickLayout layout(volume_.lattice, volume_.extents, spline_->apron(), config_.brick);
+    const BrickLayout layout(volume_.lattice, volume_.extents, spline_->apron(), config_.brick, config_.storage);
     bricks_.emplace(device_, layout, std::make_shared<SampleBricks>(layout, *source_, *spline_, config_.prefilter, unit), *config_.pool_bytes,
                     limits_.texel_elements);
     coefficients_ = Coefficients<float>{volume_.lattice, volume_.extents, spline_->apron(), volume_.world, {}, unit};
@@ -163,30 +173,31 @@ void DeviceRenderer::prepare_coefficients(RenderStats& stats, const Progress& pr
   coefficient_layout();
   prepare_samples(stats);
   const Stopwatch prefilter;
-  const SampleRange range = sample_range(volume_);
-  const ValueUnit unit = float_unit(volume_.type(), range.min, range.max);
-  const bool doubles = config_.precision == Precision::float64;
-  Coefficients<double> exact;
-  if (doubles) {
-    exact = spline_->coefficients(volume_, config_.prefilter, progress);
-    exact.unit = unit;
-    for (double& c : exact.data) c = unit.number(c);
-    value_rounding_ = value_rounding(exact);
-    coefficients_ = narrowed(exact);
-  } else {
-    coefficients_ = spline_->coefficients_float(volume_, config_.prefilter, unit, progress);
-  }
+  const std::vector<std::byte> read = make_coefficients(progress);
   stats.prefilter_ms += prefilter.ms();
   volume_.samples = {};
 
   const Stopwatch upload;
-  texels_ = CoefficientTexels(device_, coefficients_->data.size(), limits_.texel_elements, "coefficients", config_.precision);
-  if (doubles) {
-    texels_.upload(device_, 0, exact.data);
-  } else {
-    texels_.upload(device_, 0, coefficients_->data);
-  }
+  texels_ = CoefficientTexels(device_, coefficients_->data.size(), limits_.texel_elements, "coefficients", format());
+  texels_.upload(device_, 0, read.empty() ? bytes_of(coefficients_->data) : std::span(read));
   stats.upload_ms += upload.ms();
+}
+
+std::vector<std::byte> DeviceRenderer::make_coefficients(const Progress& progress) {
+  if (config_.precision == Precision::float32) {
+    std::vector<std::byte> packed;
+    coefficients_ = stored_coefficients(*spline_, volume_, config_.prefilter, config_.storage, progress, &packed);
+    return packed;
+  }
+  const SampleRange range = sample_range(volume_);
+  const ValueUnit unit = float_unit(volume_.type(), range.min, range.max);
+  Coefficients<double> exact = spline_->coefficients(volume_, config_.prefilter, progress);
+  exact.unit = unit;
+  for (double& c : exact.data) c = unit.number(c);
+  value_rounding_ = value_rounding(exact);
+  coefficients_ = narrowed(exact);
+  const std::span<const std::byte> bytes = bytes_of(exact.data);
+  return {bytes.begin(), bytes.end()};
 }
 
 void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress) {
@@ -194,7 +205,7 @@ void DeviceRenderer::prepare_bounds(const Request& request, RenderStats& stats, 
   if (bounds_ && bounds_->finest() <= finest) return;
   const Stopwatch watch;
   if (source_) {
-    StreamedBounds streamed = streamed_bounds(*source_, *spline_, config_.prefilter, finest, what_, progress, source_range_);
+    StreamedBounds streamed = streamed_bounds(*source_, *spline_, config_.prefilter, finest, what_, progress, source_range_, &bricks_->layout());
     bounds_.emplace(streamed.scale, std::move(streamed.blocks));
     skipping_.emplace(device_);
   } else {
@@ -383,6 +394,7 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
 void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   stats.device = gpu::info(device_).name;
   stats.precision = config_.precision;
+  stats.storage = format().name();
   stats.device_bytes.clear();
   if (bricks_) {
     bricks_->describe(stats);

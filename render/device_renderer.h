@@ -22,6 +22,7 @@ struct DeviceLimits {
   std::uint64_t texel_elements = 0;  ///< of one coefficient buffer
   std::uint64_t frame_bytes = 0;     ///< of one buffer of the picture
   bool no_float64 = false;           ///< as of a device without 64-bit floats
+  bool no_small_texels = false;      ///< as of a device without texel buffers of 16 and 8 bits
 };
 
 class DeviceRenderer final : public Renderer {
@@ -43,11 +44,17 @@ class DeviceRenderer final : public Renderer {
     gpu::Buffer color, hit, cost, rays, parked;
   };
 
+  /// What coefficients are on the device.
+  CoefficientFormat format() const { return {.precision = config_.precision, .storage = config_.storage}; }
   /// Throws DeviceError where the device cannot compute in config_.precision.
   void check_precision() const;
+  /// Throws DeviceError where the device cannot read config_.storage.
+  void check_device_storage() const;
   /// Makes the samples finite, as config_.nan says, and finds the void cells.
   void prepare_samples(RenderStats& stats);
   void prepare_coefficients(RenderStats& stats, const Progress& progress);
+  /// Prefilters: makes coefficients_ what kernels decode, in single precision, and gives the bytes of what they read.
+  std::vector<std::byte> make_coefficients(const Progress& progress);
   void prepare_bounds(const Request& request, RenderStats& stats, const Progress& progress);
   /// Where nothing is skipped: throws InputError for samples of the source that are not finite, as prepare_bounds does.
   void check_samples(const Progress& progress);

@@ -46,6 +46,8 @@ constexpr Part kParts[] = {
     {"void cells", "VOIDS", "is_void", [](const KernelVariant& v) { return v.voids && !v.stub; }, "--nan empty, and samples are not finite",
      "every sample is finite, or --nan is not empty"},
     {"brick pool", "BRICKS", "brick_resident", [](const KernelVariant& v) { return v.bricks && !v.stub; }, "--pool", "all coefficients are on the device: no page table"},
+    {"unit of each brick", "BRICK_UNITS", "in_unit", [](const KernelVariant& v) { return v.bricks && v.brick_units && !v.stub; },
+     "--storage of 16 or 8 bits with --pool", "--storage float32, or all coefficients are on the device in one unit"},
     {"64-bit floats", "DOUBLE", "wide", [](const KernelVariant& v) { return v.precision == Precision::float64; }, "--precision double", "--precision float"},
     {"cost channels", "COST", "write_cost", [](const KernelVariant& v) { return v.cost; }, "costs were asked for", "no costs were asked for"},
     {"traversal alone", nullptr, "traverse", [](const KernelVariant& v) { return v.stub; }, "--stub-sampling", "samples are evaluated"},

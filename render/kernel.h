@@ -25,6 +25,7 @@ struct KernelVariant {
   bool pre_integrated = false, adaptive = false, lit = false, modulated = false, jitter = false;  ///< how
   bool stub = false;            ///< walks the structure and evaluates nothing
   bool bricks = false;          ///< coefficients are in a brick pool
+  bool brick_units = false;     ///< and each brick's in a unit of its own
   bool voids = false;           ///< there are void cells
   Precision precision = Precision::float32;  ///< of what decides a picture; float64 not with `bricks`
   int coefficient_buffers = 1;  ///< 1..8 texel buffers

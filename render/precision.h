@@ -1,8 +1,6 @@
 // The floats that kernels compute in.
 #pragma once
 
-#include <cstdint>
-
 namespace quincunx {
 
 /// By which rays, roots and gradients are found. What is stored of a picture are 32-bit floats in any case.
@@ -10,7 +8,4 @@ enum class Precision { float32, float64 };
 
 /// As --precision names it.
 constexpr const char* precision_name(Precision precision) { return precision == Precision::float32 ? "float" : "double"; }
-/// Bytes of a coefficient.
-constexpr std::uint64_t coefficient_bytes(Precision precision) { return precision == Precision::float32 ? 4 : 8; }
-
 }  // namespace quincunx

@@ -10,6 +10,16 @@ namespace quincunx {
 ReferenceRenderer::ReferenceRenderer(const Volume& volume, const Config& config)
     : config_(config), spline_(make_spline(config.spline, volume.lattice)), volume_(volume) {}
 
+void ReferenceRenderer::prepare_coefficients(const Progress& progress) {
+  voids_ = make_finite(volume_, *spline_, config_.nan);
+  if (config_.storage == Storage::float32) {
+    coefficients_ = spline_->coefficients(volume_, config_.prefilter, progress);
+  } else {
+    coefficients_ = values_of(stored_coefficients(*spline_, volume_, config_.prefilter, config_.storage, progress));
+  }
+  volume_.samples = {};
+}
+
 Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);
   if (request.scene.stub_sampling)
@@ -17,12 +27,11 @@ Frame ReferenceRenderer::render(const Request& request, RenderStats& stats, cons
   stats = RenderStats{};
   stats.device = "cpu (double precision)";
   stats.precision = Precision::float64;
+  stats.storage = config_.storage == Storage::float32 ? "float64" : storage_name(config_.storage);
   if (!coefficients_) {
     const Stopwatch watch;
-    voids_ = make_finite(volume_, *spline_, config_.nan);
-    coefficients_ = spline_->coefficients(volume_, config_.prefilter, progress);
+    prepare_coefficients(progress);
     stats.prefilter_ms = watch.ms();
-    volume_.samples = {};
   }
   const bool skips = request.skip.structure != "none";
   if (skips && !cells_) {

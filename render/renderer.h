@@ -15,6 +15,7 @@
 #include "render/precision.h"
 #include "render/scene.h"
 #include "spline/spline.h"
+#include "spline/storage.h"
 
 namespace quincunx {
 
@@ -32,6 +33,7 @@ struct RenderStats {
   std::string device;
   SkipConfig skip;  ///< as it was used
   Precision precision = Precision::float32;  ///< likewise
+  std::string storage;                       ///< of coefficients: float64, or as --storage names it
   double prefilter_ms = 0, upload_ms = 0, compile_ms = 0;
   double table_ms = 0;     ///< of the transfer function, for the kernel
   double bounds_ms = 0;    ///< of cells and blocks, and what a structure makes of them alone: once a volume and block size
@@ -63,6 +65,9 @@ class Renderer {
     Spline::Prefilter prefilter = Spline::Prefilter::automatic;
     NanPolicy nan;       ///< what becomes of samples that are not finite
     Precision precision = Precision::float32;  ///< of the kernels; float64 not with a pool. "cpu" computes in doubles in any case
+    /// Of coefficients on the device, in one unit or, with a pool, in one a brick; float32 with Precision::float64. "cpu" takes the others as the device
+    /// would decode them, and doubles in place of float32.
+    Storage storage = Storage::float32;
     std::optional<std::uint64_t> pool_bytes;  ///< of coefficients on the device at a time, in bricks; none: all of them
     int brick = 32;           ///< edge of a brick in cells, a power of two, 4..256
     bool validation = false;  ///< Vulkan validation layers; any message throws
@@ -94,7 +99,7 @@ std::uint64_t default_pool_bytes(const std::string& device);
 /// Makes a volume ready for the device chosen by `device`: "cpu" (double precision), "" (a GPU where there is one, else
 /// a CPU implementation of Vulkan), an index or part of a name as `quincunx devices` lists them.
 /// Throws InputError for a volume of another lattice than the spline's or one that has NaN or infinite samples where config.nan refuses them,
-/// DeviceError for a device that is not there or cannot compute in config.precision.
+/// or for config.storage with Precision::float64, DeviceError for a device that is not there, cannot compute in config.precision or cannot read config.storage.
 std::unique_ptr<Renderer> make_renderer(const std::string& device, const Volume& volume, const Renderer::Config& config);
 
 /// The same for samples that stay where they are and are read brick by brick into a pool of config.pool_bytes, which is set. `what` names

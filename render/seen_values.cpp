@@ -65,8 +65,9 @@ std::vector<ValueRange> numbers_of(std::vector<ValueRange> values, const ValueUn
     if (range.low == range.high) {
       range.low = range.high = kernel_isovalue(range.low, unit);
     } else {
-      range.low = std::nextafter(unit.number(range.low), -kLargest);
-      range.high = std::nextafter(unit.number(range.high), kLargest);
+      // Two roundings each.
+      range.low = std::nextafter(std::nextafter(unit.number(range.low), -kLargest), -kLargest);
+      range.high = std::nextafter(std::nextafter(unit.number(range.high), kLargest), kLargest);
     }
   }
   return merged(std::move(values));

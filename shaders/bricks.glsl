@@ -4,6 +4,10 @@ layout(std430, binding = 20) writeonly buffer Requests {
   uint requested[];  // by brick: 1 where a ray waits for it
 };
 
+#ifdef BRICK_UNITS
+layout(binding = 22) uniform samplerBuffer brickUnits;  // offset and scale, by brick
+#endif
+
 const int NOT_RESIDENT = -0x7fffffff - 1;
 
 int brick_number(ivec3 cell) {
@@ -15,4 +19,10 @@ bool brick_resident(ivec3 cell) { return texelFetch(pageTable, brick_number(cell
 void request_brick(ivec3 cell) { requested[brick_number(cell)] = 1u; }
 
 // As an evaluation in `cell` counts coefficients; of a brick that is not resident, anything: what it gives is not used.
-int coefficient_origin(ivec3 cell) { return texelFetch(pageTable, brick_number(cell)).r; }
+int coefficient_origin(ivec3 cell) {
+  int number = brick_number(cell);
+#ifdef BRICK_UNITS
+  brick_unit = texelFetch(brickUnits, number).rg;
+#endif
+  return texelFetch(pageTable, number).r;
+}

@@ -1,5 +1,6 @@
 // The spline's coefficients by their number, from one texel buffer or, where the device limits its elements, several
-// (COEFFICIENT_BUFFERS of 2^COEFFICIENT_SHIFT elements each). A double is an element of two words.
+// (COEFFICIENT_BUFFERS of 2^COEFFICIENT_SHIFT elements each). A double is an element of two words; of numbers of 16 and 8 bits (spline/storage.h) a
+// fetch makes floats.
 #ifdef DOUBLE
 #define COEFFICIENTS usamplerBuffer
 #define FETCH_COEFFICIENT(buffer, element) packDouble2x32(texelFetch(buffer, element).rg)
@@ -30,9 +31,19 @@ layout(binding = 16) uniform COEFFICIENTS coefficients6;
 layout(binding = 17) uniform COEFFICIENTS coefficients7;
 #endif
 
+#ifdef BRICK_UNITS
+vec2 brick_unit;  // offset and scale of the numbers of the brick that was last asked for its coefficient_origin
+real in_unit(real number) {
+  precise real value = brick_unit.x + brick_unit.y * number;
+  return value;
+}
+#else
+#define in_unit(number) (number)
+#endif
+
 real coefficient(int number) {
 #if COEFFICIENT_BUFFERS == 1
-  return FETCH_COEFFICIENT(coefficients0, number);
+  return in_unit(FETCH_COEFFICIENT(coefficients0, number));
 #else
   int buffer_number = number >> COEFFICIENT_SHIFT;
   int element = number & ((1 << COEFFICIENT_SHIFT) - 1);
@@ -56,7 +67,7 @@ real coefficient(int number) {
 #if COEFFICIENT_BUFFERS > 7
   c = buffer_number == 7 ? FETCH_COEFFICIENT(coefficients7, element) : c;
 #endif
-  return c;
+  return in_unit(c);
 #endif
 }
 

@@ -9,7 +9,7 @@ namespace quincunx {
 /// is that of the values in this unit, and its gradient by `scale` too small.
 struct ValueUnit {
   double offset = 0.0;
-  double scale = 1.0;  ///< a power of two: scaling by it rounds nothing
+  double scale = 1.0;  ///< of float_unit a power of two: scaling by it rounds nothing
 
   double number(double value) const { return (value - offset) / scale; }
   double value(double number) const { return offset + scale * number; }

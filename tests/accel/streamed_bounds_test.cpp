@@ -9,7 +9,9 @@
 #include <random>
 #include <vector>
 
+#include "accel/brick_errors.h"
 #include "lattice/error.h"
+#include "spline/box_coefficients.h"
 
 namespace quincunx {
 namespace {
@@ -99,6 +101,115 @@ TEST(StreamedBounds, SayTheRangeOfTheSamplesAndTheScaleOfTheWholeVolume) {
   EXPECT_EQ(bounds.scale.low, scale.low);
   EXPECT_EQ(bounds.scale.step, scale.step);
   EXPECT_EQ(bounds.scale.displacement, scale.displacement);
+}
+
+/// The coefficients of a brick's slot as a kernel decodes them.
+Coefficients<double> decoded_slot(const Volume& volume, const Spline& spline, Spline::Prefilter prefilter, const BrickLayout& layout, const glm::ivec3& brick) {
+  std::vector<float> slot(std::size_t(layout.slot_floats()));
+  box_coefficients(VolumeSource(volume), spline, prefilter, {}, {layout.first_index(brick), Extents(layout.samples)}, slot);
+  const NumberRange range = range_of(slot);
+  const ValueUnit unit = storage_unit(layout.storage, range.low, range.high);
+  Coefficients<double> c;
+  c.lattice = layout.lattice;
+  c.apron = layout.apron;
+  c.extents = Extents(layout.samples - 2 * layout.apron);
+  for (const float number : slot) {
+    const float product = float(unit.scale) * stored_number(layout.storage, storage_bits(layout.storage, unit.number(number)));
+    const float decoded = float(unit.offset) + product;
+    c.data.push_back(decoded);
+  }
+  return c;
+}
+
+TEST(StreamedBounds, HoldWhatIsDecodedOfStoredBricksOnBothSidesOfTheirFaces) {
+  std::size_t beyond_unrounded = 0;
+  for (const std::string_view name : spline_names()) {
+    const auto spline = make_spline(name);
+    const LatticeKind lattice = spline->lattice();
+    const Volume volume = waves(lattice, lattice == LatticeKind::bcc ? Extents(70, 9, 6) : Extents(139, 18, 11));
+    const glm::i64vec3 cells = cell_count(volume.lattice, volume.extents);
+    const Spline::Prefilter prefilter = Spline::Prefilter::automatic;
+    const StreamedBounds unrounded = streamed_bounds(VolumeSource(volume), *spline, prefilter, 4, "volume");
+    for (const Storage storage : {Storage::float16, Storage::unorm16, Storage::unorm8})
+      for (const int edge : {4, 16, 128}) {
+        SCOPED_TRACE(std::string(name) + ", " + storage_name(storage) + ", bricks of " + std::to_string(edge));
+        const BrickLayout layout(lattice, volume.extents, spline->apron(), edge, storage);
+        const StreamedBounds bounds = streamed_bounds(VolumeSource(volume), *spline, prefilter, 4, "volume", {}, {}, &layout);
+        std::mt19937 random(5);
+        for (int n = 0; n < (edge == 4 ? 20 : 4); ++n) {
+          const glm::ivec3 brick(int(random() % unsigned(layout.bricks.x)), int(random() % unsigned(layout.bricks.y)), int(random() % unsigned(layout.bricks.z)));
+          const Coefficients<double> slot = decoded_slot(volume, *spline, prefilter, layout, brick);
+          for (int k = 0; k < 300; ++k) {
+            glm::i64vec3 cell;
+            glm::dvec3 u;
+            for (int a = 0; a < 3; ++a) {
+              const std::int64_t first = brick[a] * std::int64_t(edge), count = std::min<std::int64_t>(edge, cells[a] - first);
+              cell[a] = first + (k % 3 == a ? 0 : std::int64_t(random() % std::uint64_t(count)));
+              u[a] = double(cell[a]) + (k % 3 == a ? 0.0 : std::uniform_real_distribution<double>(0.0, 0.999)(random));
+            }
+            const double value = spline->evaluate(slot, u - glm::dvec3(brick * edge)).value;
+            // The cell's own block, and at the brick's lower face the one before it.
+            glm::i64vec3 before = cell;
+            before[k % 3] = std::max<std::int64_t>(before[k % 3] - 1, 0);
+            for (const glm::i64vec3& side : {cell, before}) {
+              const glm::i64vec3 b = side / std::int64_t(4);
+              const std::size_t number = std::size_t((b.z * bounds.blocks.blocks.y + b.y) * bounds.blocks.blocks.x + b.x);
+              ASSERT_LE(bounds.scale.value(bounds.blocks.min[number]), value);
+              ASSERT_GE(bounds.scale.value(bounds.blocks.max[number]), value);
+              beyond_unrounded += value < unrounded.scale.value(unrounded.blocks.min[number]) || value > unrounded.scale.value(unrounded.blocks.max[number]);
+            }
+          }
+        }
+      }
+  }
+  EXPECT_GT(beyond_unrounded, 100u) << "nothing was put to the test";
+}
+
+TEST(BrickErrors, AreThoseOfTheWorstOfABrickAndItsNeighboursHoweverCoefficientsCome) {
+  // 7 x 2 x 1 bricks of 4 cells, all coefficients 3 but one of 103 inside brick (2, 0, 0).
+  const auto spline = make_spline("trilinear");
+  Coefficients<float> c;
+  c.lattice = LatticeKind::cartesian;
+  c.extents = {29, 9, 5};
+  c.apron = spline->apron();
+  c.data.assign(std::size_t(c.stride_coset()), 3.0f);
+  c.data[c.number(0, {10, 2, 2})] = 103.0f;
+  const BrickLayout layout(c.lattice, c.extents, c.apron, 4, Storage::unorm8);
+  BrickErrors whole(layout), parts(layout);
+  whole.add(c, glm::i64vec3(-c.apron));
+  for (std::int64_t x = 0; x < 29; x += 3) {  // slabs of three samples, none the size of a brick
+    Coefficients<float> slab = c;
+    slab.extents = {3, 9, 5};
+    slab.data.assign(std::size_t(slab.stride_coset()), 3.0f);
+    if (x == 9) slab.data[slab.number(0, {1, 2, 2})] = 103.0f;
+    parts.add(slab, glm::i64vec3(x, 0, 0) - std::int64_t(c.apron));
+  }
+  const double constant = storage_error(Storage::unorm8, 3.0, 3.0), worst = storage_error(Storage::unorm8, 3.0, 103.0);
+  EXPECT_NEAR(worst, 50.0 / 255, 1e-3);
+  for (const BrickErrors* errors : {&whole, &parts})
+    for (std::int32_t n = 0; n < layout.count(); ++n) {
+      const glm::ivec3 brick = layout.brick(n);
+      EXPECT_EQ(errors->errors()[std::size_t(n)], brick.x >= 1 && brick.x <= 3 ? worst : constant) << brick.x << ' ' << brick.y;
+    }
+}
+
+TEST(StreamedBounds, OfStoredBricksAreWiderByHalfAStepOfTheWidestNearAndNoMore) {
+  const auto spline = make_spline("trilinear");
+  const Volume volume = waves(LatticeKind::cartesian, {200, 9, 9});
+  const BrickLayout layout(volume.lattice, volume.extents, spline->apron(), 8, Storage::unorm8);
+  const StreamedBounds found = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::none, 8, "volume", {}, {}, &layout);
+  const StreamedBounds unrounded = streamed_bounds(VolumeSource(volume), *spline, Spline::Prefilter::none, 8, "volume");
+  ASSERT_EQ(found.blocks.min.size(), 25u);
+  const double slack = 3.0 * found.scale.step;
+  for (std::size_t n = 0; n < 25; ++n) {
+    const double wider = unrounded.scale.value(unrounded.blocks.min[n]) - found.scale.value(found.blocks.min[n]);
+    EXPECT_GE(wider, -slack);
+    EXPECT_LE(wider, 255.0 / 510.0 + slack);
+    // Bricks of nothing but 7s, and their neighbours too.
+    if (n > 14) {
+      EXPECT_LE(wider, slack);
+    }
+  }
 }
 
 /// Notes the largest box that is read.

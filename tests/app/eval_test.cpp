@@ -165,6 +165,32 @@ TEST(Eval, TakesTheSamplesAsCoefficientsWithoutThePrefilter) {
   EXPECT_NEAR(found[0][3], spline->evaluate(coefficients, u).value, 1e-9);
 }
 
+TEST(Eval, OfStoredCoefficientsIsOffByWhatTheFormatIs) {
+  const TemporaryFolder folder;
+  const Volume volume = random_volume();
+  write_volume(volume, folder / "v.nrrd");
+  write_file(folder / "p.csv", csv(random_points(volume.world, glm::dvec3(0.0), glm::dvec3(9, 11, 7), 500)));
+  const auto with = [&](const char* storage, const char* precision) {
+    return rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--prefilter", "none", "--storage", storage, "--precision", precision}).out);
+  };
+  const auto exact = with("float32", "double");
+  EXPECT_EQ(exact, rows(run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--prefilter", "none"}).out));
+  // Samples of 0 to 999: half a step of each format, and weights that sum to 1.
+  for (const auto& [storage, half_step] : {std::pair{"float16", 500.0 / 4096}, {"unorm16", 500.0 / 65535}, {"unorm8", 500.0 / 255}}) {
+    const auto found = with(storage, "double"), single = with(storage, "float");
+    double largest = 0.0;
+    for (std::size_t n = 0; n < exact.size(); ++n) {
+      largest = std::max(largest, std::abs(found[n][3] - exact[n][3]));
+      ASSERT_NEAR(single[n][3], found[n][3], 1e-3) << storage;
+    }
+    EXPECT_LE(largest, half_step + 1e-4) << storage;
+    EXPECT_GT(largest, 0.1 * half_step) << storage;
+  }
+  const Outcome refused = run({"eval", folder / "v.nrrd", "--points", folder / "p.csv", "--storage", "int8"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--storage"));
+}
+
 TEST(Eval, NamesTheLineThatIsNoPointAndPrintsNothing) {
   const TemporaryFolder folder;
   write_volume(random_volume(), folder / "v.nrrd");

@@ -26,7 +26,7 @@ TEST(Help, OfRenderNamesEveryFlagAndTheSkippingStructuresThereAre) {
         "--intersect ", "--step ",      "--normal ",  "--delta ",      "--prefilter ", "--size ",     "--camera ",
         "--azimuth ",   "--elevation ", "--zoom ",    "--eye ",        "--target ",       "--up ",       "--fov ",
         "--device ",    "--stats ",     "--ambient ", "--background ", "--repeat ",       "--validate ", "--explain ",
-        "--cost ",      "--quiet ",     "--json ",      "--nan "}) {
+        "--cost ",      "--quiet ",     "--json ",      "--nan ",       "--storage "}) {
     EXPECT_THAT(help, HasSubstr(flag));
   }
 }

@@ -91,6 +91,14 @@ TEST(RenderFlags, NameFilesThatCanBeWritten) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(RenderFlags, TakeSmallCoefficientsOfKernelsInFloatsAlone) {
+  for (const char* storage : {"float32", "float16", "unorm16", "unorm8"}) EXPECT_EQ(refusal_with({"--storage", storage, "--explain"}), "");
+  EXPECT_EQ(refusal_with({"--storage", "float32", "--precision", "double", "--explain"}), "");
+  EXPECT_THAT(refusal_with({"--storage", "unorm8", "--precision", "double", "--explain"}),
+              AllOf(HasSubstr("--storage: found unorm8"), HasSubstr("--precision double"), HasSubstr("float32")));
+  EXPECT_THAT(refusal_with({"--storage", "half", "--explain"}), AllOf(HasSubstr("--storage"), HasSubstr("half"), HasSubstr("float32, float16, unorm16, unorm8")));
+}
+
 TEST(RenderFlags, NeedAnIsovalueAndSomethingToMake) {
   EXPECT_THAT(render_refusal({"volume.nrrd", "--json"}), AllOf(HasSubstr("--iso"), HasSubstr("quincunx info")));
   EXPECT_THAT(render_refusal({"volume.nrrd", "--iso", "1"}), HasSubstr("-o"));

@@ -202,6 +202,30 @@ TEST_F(Render, ExplainsTheKernelWithoutAPicture) {
   EXPECT_LT(compiled(lean), compiled(full));
 }
 
+TEST_F(Render, StoresCoefficientsInFewerBitsWhereItIsAskedTo) {
+  const Image whole = picture({});
+  std::uint64_t of_floats = 0;
+  for (const auto& [storage, bytes] : {std::pair{"float32", 4}, {"float16", 2}, {"unorm16", 2}, {"unorm8", 1}}) {
+    const Outcome outcome = render({"--storage", storage, "--json", "-o", folder / "small.exr"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json told = json::parse(outcome.out);
+    EXPECT_EQ(told["storage"], storage);
+    const std::uint64_t found = told["device_bytes"]["coefficients"];
+    of_floats = bytes == 4 ? found : of_floats;
+    EXPECT_EQ(4 * found, std::uint64_t(bytes) * of_floats);
+    const Image small = read_image(folder / "small.exr");
+    EXPECT_EQ(small.pixels == whole.pixels, bytes == 4) << storage;
+    const Outcome reference = render({"--storage", storage, "--json", "--device", "cpu", "-o", folder / "reference.exr"});
+    EXPECT_EQ(json::parse(reference.out)["storage"], bytes == 4 ? "float64" : storage);
+    const Image truth = read_image(folder / "reference.exr");
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x) {
+        if (!std::isfinite(at(small, "Z", x, y)) || !std::isfinite(at(truth, "Z", x, y))) continue;
+        ASSERT_NEAR(at(small, "N.X", x, y), at(truth, "N.X", x, y), 1e-4) << storage;
+      }
+  }
+}
+
 TEST_F(Render, TellsWhenNothingWasHit) {
   const Outcome outcome =
       run({"render", volume, "--iso", "7", "--size", "8", "8", "-o", folder / "a.png", "--device", "cpu"});

@@ -195,6 +195,8 @@ TEST_F(SweepProgram, RefusesBadInputInOneLineAndMakesNoFolder) {
   expect_refused(sweep({"--bricks", "16,16", "-o", out}), {"--bricks", "twice"});
   expect_refused(sweep({"--bricks", "8,64", "--pool", "10K", "-o", out}), {"--pool", "10240 bytes", "one brick of 64 cells"});
   expect_refused(sweep({"--bricks", "16", "--intersect", "march", "-o", out}), {"--bricks", "march"});
+  expect_refused(sweep({"--bricks", "16", "--storage", "unorm16", "-o", out}), {"--bricks", "unorm16", "float32"});
+  expect_refused(sweep({"--storage", "unorm8", "--precision", "double", "-o", out}), {"--storage", "unorm8", "--precision double"});
   Arguments unknown{"--structures", "grid,tree", "-o", out};
   std::vector<std::string> parts{"--structures", "'tree'"};
   parts.insert(parts.end(), skip_labels().begin(), skip_labels().end());

@@ -41,7 +41,7 @@ struct PoolFixture {
       : pool(layout, source, std::uint64_t(slots) * layout.slot_bytes()), device(std::size_t(pool.floats()), -1.0f) {}
 
   BrickPool::Upload upload() {
-    return [this](std::int64_t first, std::span<const float> slot) {
+    return [this](std::int32_t, std::int64_t first, std::span<const float> slot) {
       ASSERT_EQ(std::int64_t(slot.size()), layout.slot_floats());
       ASSERT_LE(first + std::int64_t(slot.size()), std::int64_t(device.size()));
       std::copy(slot.begin(), slot.end(), device.begin() + first);
@@ -190,7 +190,7 @@ TEST(BrickPool, ManyBatchesAreLoadedWithProgress) {
   BrickPool pool(layout, std::make_shared<NumberedBricks>(layout), 3 * layout.slot_bytes());
   std::vector<double> fractions;
   int uploads = 0;
-  pool.make_resident(std::vector<std::int32_t>{2, 0, 1}, [&](std::int64_t, std::span<const float>) { ++uploads; },
+  pool.make_resident(std::vector<std::int32_t>{2, 0, 1}, [&](std::int32_t, std::int64_t, std::span<const float>) { ++uploads; },
                      [&](double fraction) { fractions.push_back(fraction); });
   EXPECT_EQ(uploads, 3);
   EXPECT_EQ(fractions.size(), 4u);
@@ -209,9 +209,9 @@ TEST(BrickPool, AfterAnErrorThePageTableNamesWhatIsThereAndWorkGoesOn) {
   EXPECT_THAT(f.resident(), ElementsAre(1, 5, 6));
 
   int uploads = 0;
-  const BrickPool::Upload failing = [&](std::int64_t first, std::span<const float> slot) {
+  const BrickPool::Upload failing = [&](std::int32_t brick, std::int64_t first, std::span<const float> slot) {
     if (++uploads == 2) throw Interrupted();
-    f.upload()(first, slot);
+    f.upload()(brick, first, slot);
   };
   EXPECT_THROW(f.pool.make_resident(std::vector<std::int32_t>{7, 8, 9}, failing), Interrupted);
   EXPECT_THAT(f.resident(), ElementsAre(7));

@@ -98,6 +98,26 @@ std::vector<KernelVariant> void_variants() {
   return variants;
 }
 
+/// Those of a brick pool, its bricks in one unit and in one each: surfaces and volumes of every spline.
+std::vector<KernelVariant> brick_variants() {
+  std::vector<KernelVariant> variants;
+  for (const char* spline : {"bcc7.glsl", "trilinear.glsl", "tricubic.glsl"})
+    for (int bits = 1; bits < 16; ++bits) {
+      KernelVariant v;
+      v.spline_shader = spline;
+      v.structure = "grid";
+      v.structure_shader = "skip_grid.glsl";
+      v.bricks = true;
+      v.surfaces = v.composite = bits & 1;
+      v.volume = v.lit = bits & 2;
+      v.brick_units = bits & 4;
+      v.coefficient_buffers = bits & 8 ? 3 : 1;
+      v.coefficient_shift = bits & 8 ? 9 : 0;
+      if (v.surfaces || v.volume) variants.push_back(v);
+    }
+  return variants;
+}
+
 /// Every fifth of `variants` in 64-bit floats, of each spline in turns.
 std::vector<KernelVariant> in_doubles(const std::vector<KernelVariant>& variants) {
   const std::string shaders[] = {"bcc7.glsl", "trilinear.glsl", "tricubic.glsl"};
@@ -147,8 +167,7 @@ std::set<std::string> buffers_of(const std::string& name) {
 TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothingElse) {
   std::vector<KernelVariant> variants = all_variants();
   for (const std::vector<KernelVariant>& more : {volume_variants(), void_variants()}) variants.insert(variants.end(), more.begin(), more.end());
-  const std::vector<KernelVariant> of_doubles = in_doubles(variants);
-  variants.insert(variants.end(), of_doubles.begin(), of_doubles.end());
+  for (const std::vector<KernelVariant>& more : {in_doubles(variants), brick_variants()}) variants.insert(variants.end(), more.begin(), more.end());
   for (const KernelVariant& v : variants) {
     SCOPED_TRACE(describe(v));
     std::set<std::string> names, bound;
@@ -168,6 +187,8 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
     if (v.cell_test) expected.insert("occupancy");
     if (v.voids && !v.stub) expected.insert("voids");
     if (v.cost) expected.insert("Cost");
+    if (v.bricks) expected.insert({"pageTable", "Requests", "Parked"});
+    if (v.brick_units) expected.insert("brickUnits");
     for (int i = 0; i < v.coefficient_buffers && !v.stub; ++i) expected.insert("coefficients" + std::to_string(i));
     EXPECT_EQ(bound, expected);
   }

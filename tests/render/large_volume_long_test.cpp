@@ -135,7 +135,7 @@ void expect_streamed(std::string_view spline, const Extents& extents) {
   for (std::size_t n = 0; n < bricks.size(); n += 5) {
     const std::span<const std::int32_t> needed = std::span(bricks).subspan(n, std::min<std::size_t>(5, bricks.size() - n));
     std::vector<std::vector<float>> device(5);
-    pool.make_resident(needed, [&](std::int64_t first, std::span<const float> slot) {
+    pool.make_resident(needed, [&](std::int32_t, std::int64_t first, std::span<const float> slot) {
       device[std::size_t(first / layout.slot_floats())].assign(slot.begin(), slot.end());
       ++uploads;
     });
