@@ -25,8 +25,8 @@ struct Task {
   const BoundsScale& scale;
 };
 
-/// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond.
-std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : 0; }
+/// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond. Even on the BCC lattice, whose boxes begin at even cells.
+std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : spline.polynomial() ? 0 : 2; }
 
 /// The coefficients of the cells low - ring <= cell < low + cells + ring, perhaps of some more.
 Coefficients<float> box_of(const Task& task, const glm::i64vec3& low, const glm::i64vec3& cells) {
