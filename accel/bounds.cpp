@@ -1,6 +1,7 @@
 // Bounds of splines over cells: the list of them, and their scale.
 //
-// On a polynomial piece the spline lies between the least and the largest of its Bernstein coefficients (its net). The
+// On a polynomial piece the spline lies between the least and the largest of its Bernstein coefficients (its net; cwlb, which has none, has
+// values of which it is a mean). The
 // range of a cell's net is widened by what 32-bit floats may add: the margin, which each spline's file derives for its
 // kernel. Let e = 2^-24, and d the largest 1-norm, in cells, of the distance between a point that a kernel means and
 // the one it computes. A kernel computes o + t d per axis from numbers rounded once, relative to the volume's middle:
@@ -22,6 +23,7 @@
 #include <string>
 
 #include "accel/bcc7_bounds.h"
+#include "accel/cwlb_bounds.h"
 #include "accel/tensor_bounds.h"
 
 namespace quincunx {
@@ -38,6 +40,7 @@ struct Row {
 /// The one list of splines that have bounds.
 constexpr Row kRows[] = {
     {"bcc7", 1.0, bcc7_margin, bcc7_bounds},
+    {"cwlb", 1.0, cwlb_margin, cwlb_bounds},
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
     {"tricubic", 1.0, tricubic_margin, tricubic_bounds},
 };

@@ -14,7 +14,7 @@ namespace quincunx {
 /// certainly contains every value the spline takes on the closed cell, and every value that a kernel in 32-bit
 /// floats computes there or, at a point of the cell's boundary, from a neighbouring cell.
 ///
-/// The interval is the range of the Bernstein-Bezier net over the cell (convex hull property), widened by the
+/// The interval is the range of the Bernstein-Bezier net over the cell (convex hull property; of cwlb that of values it is a mean of), widened by the
 /// rounding margin of its spline (bounds.cpp), then rounded outwards to 16 bits on its scale. An empty one (min > max) has no value that
 /// could be seen: that of a void cell (void_cells.h).
 struct CellBounds : ValueScale {

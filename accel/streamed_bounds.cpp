@@ -28,8 +28,8 @@ struct Task {
   BrickErrors* errors;  ///< null where coefficients are not rounded
 };
 
-/// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond.
-std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : 0; }
+/// Cells more on each side of a box: those at its ends are bounded as if there were anything beyond. Even on the BCC lattice, whose boxes begin at even cells.
+std::int64_t ring(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? spline.apron() + 1 : spline.polynomial() ? 0 : 2; }
 
 /// The index of the first coefficient of a box's.
 glm::i64vec3 first_of_box(const Spline& spline, const glm::i64vec3& low) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -151,6 +152,15 @@ void check_outputs(const RenderFlags& flags) {
   }
 }
 
+/// What was asked for, or what fits.
+Intersect intersect_of(const RenderFlags& flags) {
+  if (flags.intersect || flags.config.spline.empty()) return flags.intersect.value_or(Intersect::exact);
+  const Intersect fitting = default_intersect(flags.device, *make_spline(flags.config.spline));
+  if (fitting == Intersect::march && !flags.isovalues.empty() && flags.verbosity == Verbosity::normal)
+    fmt::print(stderr, "note: pieces of {} are no polynomials: surfaces are marched (--intersect march); --device cpu finds first roots\n", flags.config.spline);
+  return fitting;
+}
+
 }  // namespace
 
 bool is_exr(const std::string& path) {
@@ -175,8 +185,13 @@ CLI::Option* add_isovalues(CLI::App& app, RenderFlags& flags) {
 }
 
 CLI::Option* add_intersect(CLI::App& app, RenderFlags& flags) {
-  return add_choice(app, "--intersect", flags.scene.intersect, {{"exact", Intersect::exact}, {"march", Intersect::march}},
-                    "First root of the polynomial pieces, or fixed steps");
+  const std::vector<std::string> choices{"exact", "march"};
+  const auto parse = [&flags, choices](const std::string& text) {
+    check_choice(text, "--intersect", choices);
+    flags.intersect = text == "exact" ? Intersect::exact : Intersect::march;
+  };
+  return add_parsed(app, "--intersect", parse, choices_text(choices), "exact",
+                    "First root of the polynomial pieces, or fixed steps: the default where pieces are no polynomials (cwlb) and the device is not cpu");
 }
 
 CLI::Option* add_step(CLI::App& app, RenderFlags& flags) {
@@ -243,6 +258,7 @@ std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags) {
 
 Scene make_scene(const RenderFlags& flags) {
   Scene scene = flags.scene;
+  scene.intersect = intersect_of(flags);
   scene.isosurfaces = make_isosurfaces(flags);
   if (flags.step > 0.0) scene.step = flags.step;
   scene.volume = make_direct_volume(flags.look, flags.step > 0.0 ? flags.step : 1.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct RenderFlags {
   VolumeFlags look;
   double step = 0.0;  ///< cells; 0: 0.25 for surfaces, 1 for volumes
   CameraFlags camera;
-  Scene scene;                    ///< all but its surfaces and camera
+  std::optional<Intersect> intersect;  ///< none: what fits device and spline
+  Scene scene;                    ///< all but its surfaces, camera and intersect
   bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through
   SkipFlags skip;
   Renderer::Config config;
@@ -60,7 +62,8 @@ void check_render_flags(const RenderFlags& flags);
 /// eye through to the one of the highest isovalue.
 std::vector<Isosurface> make_isosurfaces(const RenderFlags& flags);
 
-/// What is to be seen: all of the scene but its camera. Reads the transfer function. Throws InputError naming the file or flag.
+/// What is to be seen: all of the scene but its camera. Reads the transfer function. Throws InputError naming the file or flag. Says so (a note on stderr)
+/// where surfaces are marched although nobody asked for it.
 Scene make_scene(const RenderFlags& flags);
 
 /// The request for `volume`. Throws InputError naming the flag.

@@ -25,7 +25,7 @@ constexpr const char* kWatertightGroup = "watertight";
 
 struct StabilityFlags {
   std::string folder, device;
-  std::vector<std::string> groups = all_groups(), splines{spline_names().begin(), spline_names().end()};
+  std::vector<std::string> groups = all_groups(), splines{polynomial_spline_names().begin(), polynomial_spline_names().end()};
   double step = 0.25;
   int points = 2000, polynomials = 100000, seed = 1;
   double rays = 1e6;
@@ -48,7 +48,7 @@ std::string joined(const std::vector<std::string>& words) { return fmt::format("
 std::string StabilityFlags::command() const {
   std::string text = "quincunx stability";
   if (groups != all_groups()) text += " --groups " + joined(groups);
-  if (splines.size() != spline_names().size()) text += " --splines " + joined(splines);
+  if (splines.size() != polynomial_spline_names().size()) text += " --splines " + joined(splines);
   return text + fmt::format(" --step {} --points {} --polynomials {} --rays {:.0f} --seed {}", step, points, polynomials, rays, seed);
 }
 
@@ -60,6 +60,13 @@ std::vector<std::string> parse_names(const std::string& text, std::string_view f
     names.emplace_back(name);
   }
   return names;
+}
+
+std::vector<std::string> parse_splines(const std::string& text, const std::vector<std::string>& choices) {
+  for (const std::string_view name : split_list(text))
+    if (std::ranges::find(spline_names(), name) != spline_names().end() && !make_spline(name)->polynomial())
+      throw InputError(fmt::format("--splines: found {}, whose pieces are no polynomials and have no first roots on a device, expected some of {}", name, joined(choices)));
+  return parse_names(text, "--splines", choices);
 }
 
 StabilityPlan cases_plan(const StabilityFlags& flags) {
@@ -128,9 +135,9 @@ Command stability_command(CLI::App& program) {
   const std::vector<std::string> groups = StabilityFlags::all_groups();
   add_parsed(
       *app, "--groups", [flags, groups](const std::string& text) { flags->groups = parse_names(text, "--groups", groups); }, "G[,G...]", joined(groups), "Parts to run");
-  const std::vector<std::string> splines(spline_names().begin(), spline_names().end());
+  const std::vector<std::string> splines = flags->splines;
   add_parsed(
-      *app, "--splines", [flags, splines](const std::string& text) { flags->splines = parse_names(text, "--splines", splines); }, "S[,S...]", joined(splines), "Splines, each on its own lattice");
+      *app, "--splines", [flags, splines](const std::string& text) { flags->splines = parse_splines(text, splines); }, "S[,S...]", joined(splines), "Splines, each on its own lattice");
   add_number(*app, "--step", flags->step, {1e-3, 1e3}, "Of the march beside, in cells");
   add_integer(*app, "--points", flags->points, 1, 1000000, "Random points of each case where values and gradients are compared");
   add_integer(*app, "--polynomials", flags->polynomials, 1, 1000000000, "Of each kind and degree");

@@ -98,7 +98,7 @@ void check_sweep_flags(const SweepFlags& flags) {
                                  storage_name(flags.scene.config.storage)));
   if (flags.scene.config.precision == Precision::float64)
     throw InputError("--bricks: found --precision double, expected --precision float: bricks hold 32-bit floats");
-  if (!flags.scene.isovalues.empty() && flags.scene.scene.intersect == Intersect::march)
+  if (!flags.scene.isovalues.empty() && flags.scene.intersect == Intersect::march)
     throw InputError("--bricks: found --intersect march, expected --intersect exact");
 }
 

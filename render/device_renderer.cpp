@@ -34,6 +34,8 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
   return std::as_bytes(std::span<const T>(v));
 }
 
+std::string pieces_of(const Spline& spline) { return fmt::format("pieces of {}", spline.name()); }
+
 /// Whether both are looked up in the same table.
 bool same_table(const DirectVolume& a, const DirectVolume& b) {
   return a.function == b.function && a.classify == b.classify && a.table_entries() == b.table_entries() && a.step == b.step;
@@ -89,8 +91,14 @@ TexelLayout DeviceRenderer::coefficient_layout() const {
   return texel_layout(coefficient_count(volume_.lattice, volume_.extents, spline_->apron()), limits_.texel_elements, gpu::info(device_).name);
 }
 
+void DeviceRenderer::check_intersect(const Scene& scene) const {
+  if (spline_->polynomial() || scene.intersect == Intersect::march || scene.isosurfaces.empty() || scene.stub_sampling) return;
+  throw InputError(fmt::format("--intersect: found exact, expected march: {} are no polynomials (--device cpu finds their first roots)", pieces_of(*spline_)));
+}
+
 void DeviceRenderer::check_bricks(const Scene& scene) const {
   if (!source_ || scene.isosurfaces.empty()) return;
+  if (!spline_->polynomial()) throw InputError(fmt::format("--pool: found surfaces whose {} are no polynomials, expected --tf alone or another --spline", pieces_of(*spline_)));
   if (scene.intersect == Intersect::march) throw InputError("--pool: found --intersect march, expected --intersect exact");
   if (scene.normal == Normal::central) throw InputError("--pool: found --normal central, whose differences reach beyond a brick; expected --normal analytic");
 }
@@ -131,6 +139,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
 }
 
 std::vector<Feature> DeviceRenderer::explain(const Request& request) {
+  check_intersect(request.scene);
   RenderStats unused;
   prepare_samples(unused);
   Request completed = request;
@@ -139,8 +148,10 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
   std::vector<Feature> features;
   for (const KernelPart& part : kernel_parts(variant(completed))) features.push_back(part.feature);
   const std::string label = completed.skip.structure == "none" ? "none" : fmt::format("{}, blocks of {} cells", skip_label(completed.skip), completed.skip.block);
-  for (Feature& feature : features)
+  for (Feature& feature : features) {
     if (feature.name == kSkipPart && !choice.why.empty()) feature.why = fmt::format("{}: {}", label, choice.why);
+    if (feature.name == kExactPart && !spline_->polynomial()) feature.why = fmt::format("{} are no polynomials", pieces_of(*spline_));
+  }
   const Spline::Prefilter prefilter = spline_->filter(config_.prefilter).kind;
   features.push_back({"small coefficients", config_.storage != Storage::float32,
                       fmt::format("--storage {}: {} bytes a coefficient", format().name(), format().bytes())});
@@ -416,6 +427,7 @@ glm::dvec3 DeviceRenderer::lattice_eye(const Scene& scene) const {
 
 Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const Progress& progress) {
   check_scene(request.scene);
+  check_intersect(request.scene);
   check_bricks(request.scene);
   Request visible = request;
   visible.scene.isosurfaces = visible_surfaces(request.scene);

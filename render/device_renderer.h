@@ -83,6 +83,7 @@ class DeviceRenderer final : public Renderer {
   void check_cells() const;
   TexelLayout coefficient_layout() const;
   void check_bricks(const Scene& scene) const;
+  void check_intersect(const Scene& scene) const;
   glm::dvec3 lattice_eye(const Scene& scene) const;
 
   std::shared_ptr<KernelCache> kernels_;

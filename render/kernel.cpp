@@ -22,7 +22,7 @@ bool shows_surfaces(const KernelVariant& v) { return v.surfaces && !v.stub; }
 bool shows_volume(const KernelVariant& v) { return v.volume && !v.stub; }
 
 constexpr Part kParts[] = {
-    {"exact intersection", nullptr, "first_root", [](const KernelVariant& v) { return shows_surfaces(v) && v.intersect == Intersect::exact; },
+    {kExactPart, nullptr, "first_root", [](const KernelVariant& v) { return shows_surfaces(v) && v.intersect == Intersect::exact; },
      "--intersect exact", "--intersect march, or there is no surface"},
     {"fixed-step march", "MARCH", "refine_root", [](const KernelVariant& v) { return shows_surfaces(v) && v.intersect == Intersect::march; },
      "--intersect march", "--intersect exact, or there is no surface"},

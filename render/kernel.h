@@ -46,8 +46,9 @@ std::vector<Pass> passes(const KernelVariant& variant);
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
 
-/// The part that is the skipping structure.
+/// The parts that are the skipping structure, and first roots of polynomials.
 inline constexpr const char* kSkipPart = "skipping structure";
+inline constexpr const char* kExactPart = "exact intersection";
 
 /// A part of the table, as it stands in the SPIR-V: the name of a function or of a buffer that is there exactly if the
 /// part is compiled into a pass.

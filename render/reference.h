@@ -11,7 +11,7 @@ namespace quincunx {
 /// Renders `scene` in double precision, in parallel, cell by cell along each ray.
 ///
 /// Intersect::exact isolates the first root of each polynomial piece by the signs of its Bernstein coefficients, splitting
-/// (de Casteljau) until decided; Intersect::march samples every `step` cells from the entry into the domain and refines a
+/// (de Casteljau) until decided, and of pieces that are no polynomials by steps that their curvature bounds (certified_root.h); Intersect::march samples every `step` cells from the entry into the domain and refines a
 /// change of sign. Semi-transparent surfaces are composited front to back. A hit is as in the README: the first root of
 /// f - isovalue inside the domain, f equal to the isovalue counting as above it.
 ///

@@ -62,6 +62,10 @@ std::string why_not_whole(const std::string& device, const Volume& header, const
   return "";
 }
 
+Intersect default_intersect(const std::string& device, const Spline& spline) {
+  return device == "cpu" || spline.polynomial() ? Intersect::exact : Intersect::march;
+}
+
 std::uint64_t default_pool_bytes(const std::string& device) {
   return std::min(std::uint64_t(1) << 30, device_meant(device).memory_bytes / 2);
 }

@@ -88,6 +88,10 @@ class Renderer {
   virtual std::vector<Feature> explain(const Request& request) = 0;
 };
 
+/// How `device` finds first roots of that spline where nothing is asked for: exact, and march where the spline's pieces are no polynomials, of
+/// which Vulkan devices cannot find them so.
+Intersect default_intersect(const std::string& device, const Spline& spline);
+
 /// Why the volume of which `header` tells lattice, extents and type cannot be rendered whole, its samples and coefficients in this machine's memory
 /// and on `device`, as half a sentence; empty where it can, and for "cpu". Throws InputError for a device that is not there or a spline of
 /// another lattice.

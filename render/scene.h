@@ -55,7 +55,7 @@ struct Scene {
   glm::dvec3 background{0.0};  ///< linear RGB behind everything; alpha there is 0
   double ambient = 0.2;        ///< the part of the colour that does not depend on the normal; headlight for the rest
 
-  Intersect intersect = Intersect::exact;
+  Intersect intersect = Intersect::exact;  ///< on Vulkan devices of splines with polynomial pieces alone (Spline::polynomial)
   double step = 0.25;  ///< of Intersect::march, in cells along the ray
   Normal normal = Normal::analytic;
   double delta = 0.5;  ///< of Normal::central, in cells

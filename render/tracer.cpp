@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/certified_root.h"
 #include "render/roots.h"
 
 namespace quincunx {
@@ -116,6 +117,37 @@ bool Tracer::cross_cell(const LatticeRay& ray, const CellWalk& walk, int& level,
   return true;
 }
 
+/// The same where the cell is one smooth piece that is no polynomial.
+bool Tracer::cross_smooth_cell(const LatticeRay& ray, const CellWalk& walk, int& level, Workspace& work, RayCost& cost,
+                               const Visitor& visit) const {
+  const double length = walk.exit() - walk.enter();
+  if (!(length > 0.0)) return true;
+  const glm::ivec3 cell = walk.cell();
+  const glm::dvec3 low(cell), high = glm::min(low + 1.0, far_), from = ray.point(walk.enter());
+  const auto jet = [&](double t) {
+    ++cost.evaluations;
+    return spline_.evaluate_piece(coefficients_, cell, glm::clamp(from + t * ray.direction, low, high));
+  };
+  const double curvature = spline_.curvature(coefficients_, cell, ray.direction);
+  if (level == kUnknown) level = level_of(jet(0.0).value);
+  work.crossings.clear();
+  int above_count = 0;
+  for (int k = 0; k < int(isovalues_.size()); ++k) {
+    const auto less = [&](double t) {
+      const Jet j = jet(t);
+      return ValueAndSlope{j.value - isovalues_[k], glm::dot(j.gradient, ray.direction)};
+    };
+    bool above = k < level;
+    work.roots.clear();
+    append_crossings(less, curvature, length, above, work.roots);
+    for (const double t : work.roots) work.crossings.push_back({walk.enter() + t, k});
+    above_count += above;
+  }
+  level = above_count;
+  sort_along_ray(work.crossings);
+  return visit_all(work.crossings, visit);
+}
+
 void Tracer::trace_exact(const LatticeRay& ray, Workspace& work, RayCost& cost, const Visitor& visit) const {
   int level = kUnknown;
   bool looking = false;
@@ -135,7 +167,8 @@ void Tracer::trace_exact(const LatticeRay& ray, Workspace& work, RayCost& cost, 
     }
     cost.intervals += !looking;
     looking = true;
-    if (!cross_cell(ray, walk, level, work, cost, visit)) return;
+    const auto cross = spline_.polynomial() ? &Tracer::cross_cell : &Tracer::cross_smooth_cell;
+    if (!(this->*cross)(ray, walk, level, work, cost, visit)) return;
   }
 }
 

@@ -23,7 +23,7 @@ struct Crossing {
 
 /// What a ray cost.
 struct RayCost {
-  std::uint32_t evaluations = 0;  ///< polynomial pieces restricted to the ray (exact), values of the spline (march)
+  std::uint32_t evaluations = 0;  ///< polynomial pieces restricted to the ray (exact), values of the spline (march, pieces that are no polynomials)
   std::uint32_t steps = 0;        ///< cells visited (exact), samples visited (march), looked at or skipped
   std::uint32_t intervals = 0;    ///< runs of them that were looked at
 };
@@ -70,6 +70,8 @@ class Tracer {
   void trace_exact(const LatticeRay& ray, Workspace& work, RayCost& cost, const Visitor& visit) const;
   bool cross_cell(const LatticeRay& ray, const CellWalk& walk, int& level, Workspace& work, RayCost& cost,
                   const Visitor& visit) const;
+  bool cross_smooth_cell(const LatticeRay& ray, const CellWalk& walk, int& level, Workspace& work, RayCost& cost,
+                         const Visitor& visit) const;
   void find_crossings(std::span<const double> bernstein, double begin, double end, int& level, Workspace& work) const;
   void trace_march(const LatticeRay& ray, Workspace& work, RayCost& cost, const Visitor& visit) const;
   Sample sample(const LatticeRay& ray, double s, bool& looking, RayCost& cost) const;

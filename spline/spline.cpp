@@ -1,9 +1,11 @@
 #include "spline/spline.h"
 
+#include <stdexcept>
 #include <string>
 
 #include "lattice/error.h"
 #include "spline/bcc7.h"
+#include "spline/cwlb.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
 
@@ -23,6 +25,7 @@ std::unique_ptr<Spline> make() {
 
 constexpr Row kSplines[] = {
     {"bcc7", make<Bcc7>},
+    {"cwlb", make<Cwlb>},
     {"trilinear", make<Trilinear>},
     {"tricubic", make<Tricubic>},
 };
@@ -39,6 +42,14 @@ const Spline::Filter& Spline::filter(Prefilter wanted) const {
                    " has: auto" + choices);
 }
 
+Jet Spline::evaluate_piece(const Coefficients<double>&, const glm::ivec3&, const glm::dvec3&) const {
+  throw std::logic_error("pieces of " + std::string(name()) + " are polynomials");
+}
+
+double Spline::curvature(const Coefficients<double>&, const glm::ivec3&, const glm::dvec3&) const {
+  throw std::logic_error("pieces of " + std::string(name()) + " are polynomials");
+}
+
 std::string_view prefilter_name(Spline::Prefilter prefilter) {
   switch (prefilter) {
     case Spline::Prefilter::automatic: return "auto";
@@ -53,6 +64,16 @@ const std::vector<std::string_view>& spline_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
     for (const Row& row : kSplines) list.push_back(row.name);
+    return list;
+  }();
+  return names;
+}
+
+const std::vector<std::string_view>& polynomial_spline_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const Row& row : kSplines)
+      if (row.make()->polynomial()) list.push_back(row.name);
     return list;
   }();
   return names;

@@ -18,7 +18,7 @@ struct Jet {
   glm::dvec3 gradient{0.0};
 };
 
-/// A spline s(u) = sum_j c_j M(u - j) over a lattice's points j, piecewise polynomial, in lattice coordinates u.
+/// A spline s(u) = sum_j c_j M(u - j) over a lattice's points j, piecewise polynomial (or smooth: polynomial()), in lattice coordinates u.
 /// Its double-precision functions here are the reference that every kernel is compared with.
 class Spline {
  public:
@@ -39,6 +39,9 @@ class Spline {
 
   virtual std::string_view name() const = 0;
   virtual LatticeKind lattice() const = 0;
+  /// Whether pieces are polynomials, which degree(), split() and restrict_to_segment() tell. Where not, these are not called: each cell is one
+  /// smooth piece, which evaluate_piece() and curvature() tell.
+  virtual bool polynomial() const { return true; }
   /// Total degree of a polynomial piece, and so its degree along a ray.
   virtual int degree() const = 0;
   /// Samples of border that the stencil reaches beyond the domain, per side of each coset. Coefficients may have more:
@@ -56,6 +59,11 @@ class Spline {
 
   /// s and its gradient at u, which is inside the domain (asserted).
   virtual Jet evaluate(const Coefficients<double>& c, const glm::dvec3& u) const = 0;
+
+  /// The same of the smooth piece of `cell` at u in the closed cell, from either side of its faces.
+  virtual Jet evaluate_piece(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& u) const;
+  /// At least as large as |second derivative of s(u + t d) by t| all over the smooth piece of `cell`.
+  virtual double curvature(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& d) const;
 
   /// Appends to `t` the parameters strictly between t0 and t1 at which o + t d crosses a knot plane inside the
   /// cell (unit cube) `cell`, ascending. Between two of them the spline is one polynomial along the ray.
@@ -82,6 +90,9 @@ std::string_view prefilter_name(Spline::Prefilter prefilter);
 
 /// The names make_spline knows.
 const std::vector<std::string_view>& spline_names();
+
+/// Those of them whose pieces are polynomials.
+const std::vector<std::string_view>& polynomial_spline_names();
 
 /// The one to take where nothing is asked for.
 std::string_view default_spline(LatticeKind lattice);

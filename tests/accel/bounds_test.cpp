@@ -125,7 +125,7 @@ TEST_P(Bounds, TheCheckSeesBoundsThatAreTooTight) {
 }
 
 /// A tenth to a twentieth of K, in units of 2^-24 of the largest coefficient.
-double allowed_error(std::string_view spline) { return spline == "bcc7" ? 51.2 : spline == "trilinear" ? 15.0 : 25.0; }
+double allowed_error(std::string_view spline) { return spline == "bcc7" ? 51.2 : spline == "trilinear" || spline == "cwlb" ? 15.0 : 25.0; }
 
 TEST_P(Bounds, ErrorsOfFloatsAreAFractionOfTheEvaluationMarginWhereMostCancels) {
   // Errors of Bernstein coefficients where cancellation is worst.
@@ -145,7 +145,11 @@ TEST_P(Bounds, ErrorsOfFloatsAreAFractionOfTheEvaluationMarginWhereMostCancels) 
       const glm::dvec3 v0 = kernel->vertex(0), v1 = kernel->vertex(1), v2 = kernel->vertex(2), v3 = kernel->vertex(3);
       const glm::dvec3 a = 0.25 * v0 + 0.25 * v1 + 0.375 * v2 + 0.125 * v3, b = (1.0 - s) * v0 + (s - 0.015625) * v1 + 0.015625 * v2;
       std::vector<double> truth(std::size_t(spline->degree()) + 1);
-      spline->restrict_to_segment(exact, cell, a, b, truth);
+      if (spline->polynomial()) {
+        spline->restrict_to_segment(exact, cell, a, b, truth);
+      } else {
+        truth[0] = spline->evaluate(exact, a).value;
+      }
       const std::vector<float> found = kernel->bernstein(a, b);
       for (std::size_t i = 0; i < truth.size(); ++i) worst = std::max(worst, std::abs(double(found[i]) - truth[i]) / (m * 0x1p-24));
     }
@@ -156,8 +160,8 @@ TEST_P(Bounds, ErrorsOfFloatsAreAFractionOfTheEvaluationMarginWhereMostCancels) 
 }
 
 /// How much wider than the spline's range the bounds are on average: the tricubic net has 4 points along an axis for pieces of
-/// degree 3, that of bcc7 5 for degree 4, and they hold on to the cell's vertices less.
-double allowed_width(std::string_view spline) { return spline == "tricubic" ? 1.15 : 1.05; }
+/// degree 3, that of bcc7 5 for degree 4, and they hold on to the cell's vertices less; cwlb goes as far as neither of the interpolants that it is a mean of.
+double allowed_width(std::string_view spline) { return spline == "tricubic" ? 1.15 : spline == "cwlb" ? 1.5 : 1.05; }
 
 TEST_P(Bounds, AreHardlyWiderThanTheRangeOfTheSpline) {
   const Coefficients<float> noisy = coefficient_sets(lattice).front().c;

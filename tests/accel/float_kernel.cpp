@@ -119,11 +119,45 @@ class Cubic final : public Cube {
   }
 };
 
+/// A cell of the BCC lattice, mixed of both cosets by cosines.
+class CosineWeighted final : public FloatKernel {
+ public:
+  CosineWeighted(const Coefficients<float>& c, const glm::ivec3& cell) : c_(c), even_(cell + (cell & 1)), sign_(1 - 2 * (cell & 1)) {}
+
+  float value(const glm::dvec3& p) const override {
+    const glm::vec3 u(glm::dvec3(sign_) * (p - glm::dvec3(even_)));
+    const float even = cube(0, even_ / 2, sign_, 0.5f * u), odd = cube(1, (even_ + sign_ - 1) / 2, -sign_, 0.5f * (1.0f - u));
+    const glm::vec3 c = sine(0.5f - u);
+    return odd + (0.5f + (c.x + c.y + c.z) * (1.0f / 6.0f)) * (even - odd);
+  }
+  std::vector<float> bernstein(const glm::dvec3& a, const glm::dvec3& b) const override { return {value(a), value(0.5 * (a + b)), value(b)}; }
+  glm::dvec3 vertex(int n) const override { return glm::dvec3(even_ + sign_ * glm::ivec3(n & 1, n >> 1 & 1, n >> 2 & 1)); }
+
+ private:
+  static float mix(float a, float b, float t) { return a + t * (b - a); }
+  float cube(int coset, const glm::ivec3& corner, const glm::ivec3& step, const glm::vec3& v) const {
+    const auto sample = [&](int i, int j, int k) { return c_.data[c_.number(coset, glm::i64vec3(corner + step * glm::ivec3(i, j, k)))]; };
+    const auto edge = [&](int j, int k) { return mix(sample(0, j, k), sample(1, j, k), v.x); };
+    return mix(mix(edge(0, 0), edge(1, 0), v.y), mix(edge(0, 1), edge(1, 1), v.y), v.z);
+  }
+  /// sin(pi y), |y| <= 1/2.
+  static glm::vec3 sine(const glm::vec3& y) {
+    const glm::vec3 z = y * y;
+    glm::vec3 sum(0.0004663028058f);
+    for (const float c : {-0.007370430946f, 0.08214588661f, -0.5992645293f, 2.55016404f, -5.16771278f, 3.141592654f}) sum = c + z * sum;
+    return y * sum;
+  }
+
+  const Coefficients<float>& c_;
+  glm::ivec3 even_, sign_;
+};
+
 }  // namespace
 
 std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficients<float>& c, const glm::ivec3& cell,
                                           const glm::dvec3& u) {
   if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
+  if (spline.name() == "cwlb") return std::make_unique<CosineWeighted>(c, cell);
   if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
   if (spline.name() == "tricubic") return std::make_unique<Cubic>(c, cell);
   throw std::logic_error("no kernel in floats for spline " + std::string(spline.name()));

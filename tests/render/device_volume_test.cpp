@@ -105,6 +105,7 @@ TEST_P(DeviceVolume, ShowsWhatTheReferenceShows) {
   ReferenceRenderer reference(volume, config);
   int view = 0;
   for (const Look& look : looks()) {
+    if (!spline->polynomial() && !look.surfaces.empty()) continue;
     Renderer::Request request = request_for(volume, 0.0, 40, 30.0 + 50.0 * view, 50.0 - 20.0 * view);
     ++view;
     request.scene.isosurfaces = look.surfaces;
@@ -128,7 +129,7 @@ TEST_P(DeviceVolume, ShowsWhatTheReferenceShows) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DeviceVolume, ::testing::Values("bcc7", "trilinear", "tricubic"));
+INSTANTIATE_TEST_SUITE_P(All, DeviceVolume, ::testing::Values("bcc7", "cwlb", "trilinear", "tricubic"));
 
 TEST_F(DeviceTest, EndsAVolumesRaysWhereLittleIsLetThrough) {
   const Volume volume = waves(LatticeKind::bcc);

@@ -1,0 +1,149 @@
+// The cosine-weighted linear B-spline on the BCC lattice (twin of spline/cwlb.cpp), 32-bit floats. A cell is one smooth piece, no polynomial:
+// surfaces are marched.
+//
+// E is the cell's all-even corner, O its all-odd one, opposite. From E on, u = sign * (p - E) is in [0,1]^3: the even samples about the
+// cell are those of the cube from E on, twice as large, in which u/2 is the place, and the odd ones those of the cube back from O, with (1 - u)/2.
+// The even coset's weight is 1/2 + the sum of cos(pi u) over the axes / 6.
+const real SPLINE_SCALE = 1.0;
+#define SPLINE_CUTS 0
+
+// A cell and where its samples are.
+struct SplineCell {
+  rvec3 even;    // E relative to the domain's centre
+  rvec3 sign;    // +-1
+  ivec3 stride;  // signed numbers of coefficients per lattice step of 2 along each axis
+  int E, O;      // numbers of the corners' coefficients
+};
+
+SplineCell spline_cell(ivec3 cell, rvec3 centre) {
+  ivec3 odd = cell & 1;
+  ivec3 e = cell + odd;
+  ivec3 s = 1 - 2 * odd;
+  ivec3 stride = ivec3(1, parameters.strides.xy);
+  ivec3 e2 = e >> 1;
+  ivec3 o2 = (e + s) >> 1;
+  SplineCell c;
+  c.even = rvec3(e) - centre;
+  c.sign = rvec3(s);
+  c.stride = s * stride;
+  int origin = coefficient_origin(cell);
+  c.E = origin + e2.x + e2.y * stride.y + e2.z * stride.z;
+  c.O = origin + parameters.strides.z + o2.x + o2.y * stride.y + o2.z * stride.z;
+  return c;
+}
+
+// u of the point o + t d, clamped into the cell.
+rvec3 cell_point(SplineCell c, rvec3 o, rvec3 d, real t) {
+  precise rvec3 u = c.sign * ((o - c.even) + t * d);
+  return clamp(u, rvec3(0.0), rvec3(1.0));
+}
+
+// The piece: there is one.
+struct AxisOrder {
+  uint code;
+};
+AxisOrder axis_order(rvec3 u) { return AxisOrder(0u); }
+uint order_code(AxisOrder r) { return 0u; }
+AxisOrder coded_order(uint code) { return AxisOrder(0u); }
+
+// Eight samples of a coset, (x,y) = (0,0), (1,0), (0,1), (1,1) steps from the corner, and their trilinear interpolant.
+struct CosetCube {
+  rvec4 low, high;  // at z = 0, 1
+};
+CosetCube coset_cube(int corner, ivec3 step) {
+  int z = corner + step.z;
+  return CosetCube(rvec4(coefficient(corner), coefficient(corner + step.x), coefficient(corner + step.y), coefficient(corner + step.x + step.y)),
+                   rvec4(coefficient(z), coefficient(z + step.x), coefficient(z + step.y), coefficient(z + step.x + step.y)));
+}
+// The value at v, less `offset`, and the gradient.
+void cube_jet(CosetCube c, rvec3 v, real offset, out real value, out rvec3 gradient) {
+  rvec4 edge = rvec4(c.low.xz, c.high.xz) - offset;
+  precise rvec4 rise = rvec4(c.low.yw, c.high.yw) - rvec4(c.low.xz, c.high.xz);
+  precise rvec4 p = edge + v.x * rise;
+  precise rvec2 p_rise = p.yw - p.xz, rise_rise = rise.yw - rise.xz;
+  precise rvec2 face = p.xz + v.y * p_rise, face_rise = rise.xz + v.y * rise_rise;
+  precise real z_rise = face.y - face.x;
+  precise real f = face.x + v.z * z_rise;
+  precise rvec3 g = rvec3(face_rise.x + v.z * (face_rise.y - face_rise.x), p_rise.x + v.z * (p_rise.y - p_rise.x), z_rise);
+  value = f;
+  gradient = g;
+}
+
+// sin(pi y) and cos(pi y) for |y| <= 1/2 by their series: the first term left out is below 7e-10, of doubles 2e-18. GLSL promises 5e-4 of its
+// own functions, and has none of doubles.
+rvec3 sine(rvec3 y) {
+  rvec3 z = y * y;
+#ifdef DOUBLE
+  return y * (3.1415926535897932385lf + z * (-5.1677127800499700292lf + z * (2.5501640398773454439lf + z * (-0.59926452932079207689lf + z * (0.082145886611128228799lf +
+         z * (-0.0073704309457143507773lf + z * (4.6630280576761256442e-4lf + z * (-2.1915353447830215827e-5lf + z * (7.9520540014755127848e-7lf +
+         z * (-2.294842899726987311e-8lf + z * 5.3926646626081284894e-10lf))))))))));
+#else
+  return y * (3.141592654 + z * (-5.16771278 + z * (2.55016404 + z * (-0.5992645293 + z * (0.08214588661 + z * (-0.007370430946 + z * 0.0004663028058))))));
+#endif
+}
+rvec3 cosine(rvec3 y) {
+  rvec3 z = y * y;
+#ifdef DOUBLE
+  return 1.0lf + z * (-4.9348022005446793094lf + z * (4.0587121264167682182lf + z * (-1.3352627688545894959lf + z * (0.23533063035889320454lf +
+         z * (-0.025806891390014060013lf + z * (0.0019295743094039230479lf + z * (-1.0463810492484570712e-4lf + z * (4.3030695870329470073e-6lf +
+         z * (-1.3878952462213772114e-7lf + z * (3.6047307974625009339e-9lf + z * -7.7007071306013533798e-11lf))))))))));
+#else
+  return 1.0 + z * (-4.934802201 + z * (4.058712126 + z * (-1.335262769 + z * (0.2353306304 + z * (-0.02580689139 + z * (0.001929574309 - z * 0.0001046381049))))));
+#endif
+}
+
+// The samples that reach a cell.
+struct Samples {
+  CosetCube even, odd;
+};
+Samples cell_samples(SplineCell cell) { return Samples(coset_cube(cell.E, cell.stride), coset_cube(cell.O, -cell.stride)); }
+
+// The value at u, less `offset`, and the gradient along u.
+void samples_jet(Samples s, rvec3 u, real offset, out real value, out rvec3 gradient) {
+  real even, odd;
+  rvec3 even_slope, odd_slope;
+  cube_jet(s.even, 0.5 * u, offset, even, even_slope);
+  cube_jet(s.odd, 0.5 * (1.0 - u), offset, odd, odd_slope);
+  rvec3 y = 0.5 - u;
+  rvec3 c = sine(y);
+  precise real a = 0.5 + (c.x + c.y + c.z) * (1.0 / real(6.0));
+  precise real apart = even - odd;
+  precise real f = odd + a * apart;
+  real pi_6 = BY_PRECISION(0.5235987756, 0.52359877559829887308lf);
+  precise rvec3 g = (0.5 * a) * even_slope - (0.5 * (1.0 - a)) * odd_slope - (pi_6 * apart) * cosine(y);
+  value = f;
+  gradient = g;
+}
+
+#if defined(MARCH) || defined(NORMAL_CENTRAL) || defined(VOLUME)
+// The value at u, less `offset`.
+real spline_value(SplineCell cell, rvec3 u, real offset) {
+  real value;
+  rvec3 gradient;
+  samples_jet(cell_samples(cell), u, offset, value, gradient);
+  return value;
+}
+
+#include "spline_at.glsl"
+#endif
+
+#ifdef VOLUME
+// The value at u, less `offset`, and the gradient of lattice coordinates.
+void spline_jet(SplineCell cell, rvec3 u, real offset, out real value, out rvec3 gradient) {
+  samples_jet(cell_samples(cell), u, offset, value, gradient);
+  gradient *= cell.sign;
+}
+#endif
+
+// The gradient at u, in lattice coordinates, after one Newton step `t` along d (lattice coordinates) towards the value 0 of the spline less
+// `offset`. A step longer than `longest` is not made.
+void spline_refine(SplineCell cell, AxisOrder order, rvec3 u, rvec3 d, real offset, real longest, out real t, out rvec3 gradient) {
+  Samples s = cell_samples(cell);
+  rvec3 along = cell.sign * d;
+  real f;
+  samples_jet(s, u, offset, f, gradient);
+  t = -f / dot(gradient, along);
+  t = abs(t) <= longest ? t : 0.0;
+  samples_jet(s, u + t * along, offset, f, gradient);
+  gradient *= cell.sign;
+}
