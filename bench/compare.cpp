@@ -59,6 +59,15 @@ Intersect parse_intersect(const std::string& word) {
   return word == "exact" ? Intersect::exact : Intersect::march;
 }
 
+Storage parse_storage(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Storage storage : kStorages) {
+    names.emplace_back(storage_name(storage));
+    if (names.back() == word) return storage;
+  }
+  throw InputError(fmt::format("--storage: found {}, expected {}", word, fmt::join(names, ", ")));
+}
+
 Density parse_density(const std::string& word) {
   check_choice(word, "--densities", {"equal", "sparse"});
   return word == "equal" ? Density::equal : Density::sparse;
@@ -153,6 +162,7 @@ void add_choices(CLI::App& app, CompareWishes& wishes) {
   const auto step = [](const std::string& word) { return parse_between(word, "--steps", 1e-3, 1e3); };
   add_list<std::string>(app, "--splines", wishes.splines, "S[,S...]", "all", "Splines, each on the volumes of its lattice", parse_spline);
   add_list<Spline::Prefilter>(app, "--prefilters", wishes.prefilters, "P[,P...]", "auto", "Prefilters, of those that a spline has: auto, none, fir, iir", parse_prefilter);
+  add_list<Storage>(app, "--storage", wishes.storages, "F[,F...]", "float32", "Coefficients on the device: float32, float16, unorm16, unorm8", parse_storage);
   add_list<Intersect>(app, "--intersect", wishes.intersects, "I[,I...]", "exact,march", "Ways to the first hit", parse_intersect);
   add_list<double>(app, "--steps", wishes.steps, "X[,X...]", "0.5,0.25,0.125", "Of march, in cells", step);
   add_list<NormalChoice>(app, "--normals", wishes.normals, "N[,N...]", "analytic", "Gradients: analytic, or the half-step in cells of central differences", parse_normal);

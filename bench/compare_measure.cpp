@@ -14,16 +14,22 @@
 #include "render/device_renderer.h"
 #include "render/reference.h"
 #include "render/shading.h"
+#include "spline/storage.h"
 
 namespace quincunx {
 namespace {
 
-/// One spline's coefficients: its renderer, and its double-precision reference.
-struct Reconstruction {
+/// One spline of one volume: its double-precision reference.
+struct Reference {
   CompareSetting setting;  ///< the first one that uses it
   std::unique_ptr<Spline> spline;
   Coefficients<double> coefficients;
-  std::vector<Frame> frames;  ///< of the reference, a view each
+  std::vector<Frame> frames;  ///< a view each
+};
+
+/// What is on the device.
+struct Rendered {
+  CompareSetting setting;  ///< the first one that uses it
   std::unique_ptr<DeviceRenderer> renderer;
 };
 
@@ -48,10 +54,9 @@ Scene exact_scene(Scene scene) {
   return scene;
 }
 
-Reconstruction reconstruct(const CompareSubject& subject, const CompareSetting& setting, const std::vector<Renderer::Request>& views,
-                           const std::shared_ptr<KernelCache>& kernels, const Progress& progress) {
+Reference make_reference(const CompareSubject& subject, const CompareSetting& setting, const std::vector<Renderer::Request>& views, const Progress& progress) {
   const Volume& volume = subject.volumes[setting.volume].volume;
-  Reconstruction r;
+  Reference r;
   r.setting = setting;
   r.spline = make_spline(setting.spline, volume.lattice);
   r.coefficients = r.spline->coefficients(volume, setting.prefilter);
@@ -59,15 +64,38 @@ Reconstruction reconstruct(const CompareSubject& subject, const CompareSetting& 
   for (std::size_t v = 0; v < views.size(); ++v)
     r.frames.push_back(render_reference(*r.spline, r.coefficients, exact_scene(views[v].scene), &cells,
                                         [&](double fraction) { report(progress, (double(v) + fraction) / double(views.size())); }));
-  Renderer::Config config;
-  config.spline = setting.spline;
-  config.prefilter = setting.prefilter;
-  r.renderer = std::make_unique<DeviceRenderer>(kernels, volume, config);
   return r;
 }
 
-Reconstruction& reconstruction_of(std::vector<Reconstruction>& all, const CompareSetting& setting) {
-  return *std::find_if(all.begin(), all.end(), [&](const Reconstruction& r) { return r.setting.same_coefficients(setting); });
+Rendered make_rendered(const CompareSubject& subject, const CompareSetting& setting, const std::shared_ptr<KernelCache>& kernels) {
+  Renderer::Config config;
+  config.spline = setting.spline;
+  config.prefilter = setting.prefilter;
+  config.storage = setting.storage;
+  return {setting, std::make_unique<DeviceRenderer>(kernels, subject.volumes[setting.volume].volume, config)};
+}
+
+/// The settings of which none is alike to one before.
+template <class Alike>
+std::vector<CompareSetting> distinct(const std::vector<CompareSetting>& settings, const Alike& alike) {
+  std::vector<CompareSetting> found;
+  for (const CompareSetting& s : settings)
+    if (std::none_of(found.begin(), found.end(), [&](const CompareSetting& d) { return alike(d, s); })) found.push_back(s);
+  return found;
+}
+bool one_spline(const CompareSetting& a, const CompareSetting& b) { return a.same_spline(b); }
+bool one_renderer(const CompareSetting& a, const CompareSetting& b) { return a.same_coefficients(b); }
+
+/// The one of `all` whose setting is alike.
+template <class T, class Alike>
+T& found(std::vector<T>& all, const CompareSetting& setting, const Alike& alike) {
+  return *std::find_if(all.begin(), all.end(), [&](const T& t) { return alike(t.setting, setting); });
+}
+
+/// In double precision, as a device decodes them.
+Coefficients<double> decoded(const CompareSubject& subject, const CompareSetting& setting, const Reference& reference) {
+  if (setting.storage == Storage::float32) return reference.coefficients;
+  return values_of(stored_coefficients(*reference.spline, subject.volumes[setting.volume].volume, setting.prefilter, setting.storage));
 }
 
 /// Whether each pixel of `frame` has a hit near the border of the domain.
@@ -185,15 +213,14 @@ CompareMeasurement measure_compare(const CompareSubject& subject, const CompareP
   request.scene.height = plan.height;
   const std::vector<Renderer::Request> views = orbit_views(request, subject.volumes.front().volume, plan.views, plan.first);
 
-  std::vector<CompareSetting> distinct;
-  for (const CompareSetting& s : plan.settings)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const CompareSetting& d) { return d.same_coefficients(s); })) distinct.push_back(s);
+  const std::vector<CompareSetting> splines = distinct(plan.settings, one_spline);
   const double count = double(plan.settings.size());
-  Shares shares(progress, 1.0 + 2.0 * double(distinct.size()) + count * 0.1 * double(plan.views * (plan.rounds + 3)));
-
+  Shares shares(progress, 1.0 + 2.0 * double(splines.size()) + count * 0.1 * double(plan.views * (plan.rounds + 3)));
   const std::vector<TrueView> truths = true_views(subject, views, shares.next());
-  std::vector<Reconstruction> reconstructions;
-  for (const CompareSetting& s : distinct) reconstructions.push_back(reconstruct(subject, s, views, kernels, shares.next(2.0)));
+  std::vector<Reference> references;
+  for (const CompareSetting& s : splines) references.push_back(make_reference(subject, s, views, shares.next(2.0)));
+  std::vector<Rendered> rendered;
+  for (const CompareSetting& s : distinct(plan.settings, one_renderer)) rendered.push_back(make_rendered(subject, s, kernels));
 
   CompareMeasurement result;
   if (!truths.empty()) result.truth = truths.front().frame;
@@ -201,8 +228,8 @@ CompareMeasurement measure_compare(const CompareSubject& subject, const CompareP
   for (const CompareSetting& s : plan.settings) {
     CompareLine line;
     line.setting = s;
-    const Reconstruction& r = reconstruction_of(reconstructions, s);
-    if (subject.truth) line.volume = volume_errors(subject, s, *r.spline, r.coefficients, plan.points, plan.seed);
+    const Reference& r = found(references, s, one_spline);
+    if (subject.truth) line.volume = volume_errors(subject, s, *r.spline, decoded(subject, s, r), plan.points, plan.seed);
     result.references.push_back(r.frames.front());
     result.lines.push_back(std::move(line));
   }
@@ -214,9 +241,8 @@ CompareMeasurement measure_compare(const CompareSubject& subject, const CompareP
         const Progress part = shares.next(round < 0 ? 0.3 : 0.1);
         report(part, 0.0);
         CompareLine& line = result.lines[n];
-        Reconstruction& r = reconstruction_of(reconstructions, line.setting);
         RenderStats stats;
-        Frame frame = r.renderer->render(line.setting.applied(views[v]), stats);
+        Frame frame = found(rendered, line.setting, one_renderer).renderer->render(line.setting.applied(views[v]), stats);
         if (round >= 0) {
           line.frame_ms.push_back(stats.trace_ms.front());
           continue;
@@ -224,7 +250,7 @@ CompareMeasurement measure_compare(const CompareSubject& subject, const CompareP
         result.device = stats.device;
         for (const auto& [what, bytes] : stats.device_bytes)
           if (what == "coefficients") line.coefficient_bytes = bytes;
-        errors[n].add(subject, frame, r.frames[v], truths.empty() ? nullptr : &truths[v]);
+        errors[n].add(subject, frame, found(references, line.setting, one_spline).frames[v], truths.empty() ? nullptr : &truths[v]);
         if (v == 0) line.picture = std::move(frame);
       }
 

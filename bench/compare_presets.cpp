@@ -47,6 +47,7 @@ ComparePreset compare_preset(std::string_view name) {
 ComparePreset with_wishes(ComparePreset preset, const CompareWishes& wishes) {
   take(wishes.splines, preset.choices.splines);
   take(wishes.prefilters, preset.choices.prefilters);
+  take(wishes.storages, preset.choices.storages);
   take(wishes.intersects, preset.choices.intersects);
   take(wishes.steps, preset.choices.steps);
   take(wishes.normals, preset.choices.normals);

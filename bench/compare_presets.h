@@ -26,6 +26,7 @@ struct ComparePreset {
 struct CompareWishes {
   std::optional<std::vector<std::string>> splines;
   std::optional<std::vector<Spline::Prefilter>> prefilters;
+  std::optional<std::vector<Storage>> storages;
   std::optional<std::vector<Intersect>> intersects;
   std::optional<std::vector<double>> steps;
   std::optional<std::vector<NormalChoice>> normals;

@@ -79,7 +79,7 @@ CompareSection lines_section(const CompareReport& report) {
                   report.subject->volumes.size() > 1 ? "Cartesian steps" : "of the volume",
                   truth ? fmt::format("true: against what was sampled, but for pixels in which either hit is within {:g} cells of a face of the domain. ", report.subject->border) : "",
                   truth ? "truth" : "reference", report.metric->title),
-      {.headings = {"spline", "volume", "prefilter", "hit", "normal", "skip", "ms", "p5", "p95"}, .rows = {}, .left = 6}};
+      {.headings = {"spline", "volume", "prefilter", "storage", "hit", "normal", "skip", "ms", "p5", "p95"}, .rows = {}, .left = 7}};
   std::vector<std::string>& headings = section.table.headings;
   append_headings(headings, "ref");
   if (truth) append_headings(headings, "true");
@@ -90,7 +90,7 @@ CompareSection lines_section(const CompareReport& report) {
     const CompareLine& line = lines[n];
     const CompareSetting& s = line.setting;
     const Spread ms = spread(line.frame_ms);
-    std::vector<std::string> row{s.spline, report.subject->volumes[s.volume].name, s.prefilter_text(), s.method(), s.normal.label(), skip_label(s.skip),
+    std::vector<std::string> row{s.spline, report.subject->volumes[s.volume].name, s.prefilter_text(), storage_name(s.storage), s.method(), s.normal.label(), skip_label(s.skip),
                                  three_digits(ms.median), three_digits(ms.p5), three_digits(ms.p95)};
     append_cells(row, line.reference);
     if (line.truth) append_cells(row, *line.truth);
@@ -105,14 +105,14 @@ CompareSection volume_section(const CompareReport& report) {
                          fmt::format("Values and gradients in double precision at {} random points (seed {}) more than {:g} cells from the faces of the domain. value: root of the mean square, and largest. "
                                      "gradient: likewise of the vector, per world unit. angle: degrees, RMS and 99th percentile.",
                                      report.plan.points, report.plan.seed, report.subject->border),
-                         {.headings = {"spline", "volume", "prefilter", "normal", "value", "max", "gradient", "angle", "p99"}, .rows = {}, .left = 4}};
+                         {.headings = {"spline", "volume", "prefilter", "storage", "normal", "value", "max", "gradient", "angle", "p99"}, .rows = {}, .left = 5}};
   std::vector<const CompareLine*> seen;
   for (const CompareLine& line : report.measured.lines) {
     const CompareSetting& s = line.setting;
     if (!line.volume || std::any_of(seen.begin(), seen.end(), [&](const CompareLine* other) { return other->setting.same_reconstruction(s); })) continue;
     seen.push_back(&line);
     const VolumeErrors& e = *line.volume;
-    section.table.rows.push_back({s.spline, report.subject->volumes[s.volume].name, s.prefilter_text(), s.normal.label(), number(e.value_rmse), number(e.value_max),
+    section.table.rows.push_back({s.spline, report.subject->volumes[s.volume].name, s.prefilter_text(), storage_name(s.storage), s.normal.label(), number(e.value_rmse), number(e.value_max),
                                   number(e.gradient_rmse), number(e.angle_rms), number(e.angle_p99)});
   }
   return section;
@@ -181,7 +181,7 @@ std::vector<CompareSection> compare_sections(const CompareReport& report) {
 
 std::string compare_csv(const CompareReport& report) {
   std::string csv =
-      "spline,volume,lattice,prefilter,intersect,step,normal,delta,skip,ms_median,ms_p5,ms_p95,coefficient_bytes,ref_wrong_percent,ref_missed,ref_false,ref_wrong_sheet,ref_depth_rms,ref_depth_p99,"
+      "spline,volume,lattice,prefilter,storage,intersect,step,normal,delta,skip,ms_median,ms_p5,ms_p95,coefficient_bytes,ref_wrong_percent,ref_missed,ref_false,ref_wrong_sheet,ref_depth_rms,ref_depth_p99,"
       "ref_depth_max,ref_normal_rms,ref_normal_p99,image_rmse,ssim,true_wrong_percent,true_missed,true_false,true_wrong_sheet,true_depth_rms,true_depth_p99,true_depth_max,true_normal_rms,"
       "true_normal_p99,value_rmse,value_max,gradient_rmse,angle_rms,angle_p99\n";
   const auto hits = [](const FrameErrors& e) {
@@ -191,7 +191,7 @@ std::string compare_csv(const CompareReport& report) {
     const CompareSetting& s = line.setting;
     const CompareVolume& v = report.subject->volumes[s.volume];
     const Spread ms = spread(line.frame_ms);
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", s.spline, csv_text(v.name), lattice_name(v.volume.lattice), s.prefilter_text(),
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", s.spline, csv_text(v.name), lattice_name(v.volume.lattice), s.prefilter_text(), storage_name(s.storage),
                        s.intersect == Intersect::exact ? "exact" : "march", s.step, s.normal.normal == Normal::analytic ? "analytic" : "central",
                        s.normal.normal == Normal::analytic ? 0.0 : s.normal.delta, skip_label(s.skip), ms.median, ms.p5, ms.p95, line.coefficient_bytes, hits(line.reference), line.image_rmse, line.ssim);
     csv += line.truth ? "," + hits(*line.truth) : std::string(",,,,,,,,,");
@@ -215,7 +215,7 @@ Json compare_json(const CompareReport& report) {
   for (const CompareLine& line : report.measured.lines) {
     const CompareSetting& s = line.setting;
     const Spread ms = spread(line.frame_ms);
-    Json entry{{"label", s.label(*report.subject)}, {"spline", s.spline}, {"volume", report.subject->volumes[s.volume].name}, {"prefilter", s.prefilter_text()}, {"method", s.method()},
+    Json entry{{"label", s.label(*report.subject)}, {"spline", s.spline}, {"volume", report.subject->volumes[s.volume].name}, {"prefilter", s.prefilter_text()}, {"storage", storage_name(s.storage)}, {"method", s.method()},
                {"normal", s.normal.label()}, {"skip", skip_label(s.skip)}, {"ms", {{"median", ms.median}, {"p5", ms.p5}, {"p95", ms.p95}}}, {"frame_ms", line.frame_ms},
                {"coefficient_bytes", line.coefficient_bytes}, {"reference", to_json(line.reference)}, {"image_rmse", line.image_rmse}, {"ssim", line.ssim}, {"left_out", line.left_out}};
     if (line.truth) entry["truth"] = to_json(*line.truth);

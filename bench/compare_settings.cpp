@@ -23,11 +23,12 @@ std::vector<Spline::Prefilter> prefilters_of(const Spline& spline, const std::ve
   return kinds;
 }
 
-/// Each way to find hits: one for exact, one a step for march.
-std::vector<std::pair<Intersect, double>> ways(const CompareChoices& choices) {
+/// Each way to find hits of a spline: one for exact, one a step for march.
+std::vector<std::pair<Intersect, double>> ways(const CompareChoices& choices, const Spline& spline) {
   std::vector<std::pair<Intersect, double>> all;
   for (const Intersect intersect : choices.intersects) {
     if (intersect == Intersect::exact) {
+      if (!spline.polynomial()) continue;  // a device has to march
       all.emplace_back(intersect, 0.0);
     } else {
       for (const double step : choices.steps) all.emplace_back(intersect, step);
@@ -40,9 +41,11 @@ std::vector<std::pair<Intersect, double>> ways(const CompareChoices& choices) {
 
 std::string NormalChoice::label() const { return normal == Normal::analytic ? "analytic" : fmt::format("central {}", delta); }
 
-bool CompareSetting::same_coefficients(const CompareSetting& other) const {
+bool CompareSetting::same_spline(const CompareSetting& other) const {
   return volume == other.volume && spline == other.spline && prefilter == other.prefilter;
 }
+
+bool CompareSetting::same_coefficients(const CompareSetting& other) const { return same_spline(other) && storage == other.storage; }
 
 bool CompareSetting::same_reconstruction(const CompareSetting& other) const { return same_coefficients(other) && normal == other.normal; }
 
@@ -54,6 +57,7 @@ std::string CompareSetting::label(const CompareSubject& subject) const {
   std::string text = spline;
   if (subject.volumes[volume].name.ends_with("sparse")) text += " sparse";
   if (prefilter != Spline::Prefilter::none) text += " " + prefilter_text();
+  if (storage != Storage::float32) text += fmt::format(", {}", storage_name(storage));
   text += ", " + method();
   if (normal.normal != Normal::analytic) text += ", " + normal.label();
   if (skip.structure != "auto") text += ", " + skip_label(skip);
@@ -76,10 +80,11 @@ std::vector<CompareSetting> compare_settings(const CompareSubject& subject, cons
       const auto spline = make_spline(name);
       if (spline->lattice() != subject.volumes[v].volume.lattice) continue;
       for (const Spline::Prefilter prefilter : prefilters_of(*spline, choices.prefilters))
-        for (const NormalChoice& normal : choices.normals)
-          for (const SkipConfig& skip : choices.skips)
-            for (const auto& [intersect, step] : ways(choices))
-              settings.push_back({.volume = v, .spline = name, .prefilter = prefilter, .intersect = intersect, .step = step, .normal = normal, .skip = skip});
+        for (const Storage storage : choices.storages)
+          for (const NormalChoice& normal : choices.normals)
+            for (const SkipConfig& skip : choices.skips)
+              for (const auto& [intersect, step] : ways(choices, *spline))
+                settings.push_back({.volume = v, .spline = name, .prefilter = prefilter, .storage = storage, .intersect = intersect, .step = step, .normal = normal, .skip = skip});
     }
   if (settings.empty())
     throw InputError(fmt::format("--splines: found {}, expected some of the lattice of {}, with a prefilter of --prefilters and a way of --intersect",

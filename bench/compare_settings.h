@@ -25,12 +25,15 @@ struct CompareSetting {
   std::size_t volume = 0;  ///< of the subject
   std::string spline;
   Spline::Prefilter prefilter = Spline::Prefilter::none;  ///< one that the spline has
+  Storage storage = Storage::float32;
   Intersect intersect = Intersect::exact;
   double step = 0.0;  ///< of Intersect::march, in cells; 0 for exact
   NormalChoice normal;
   SkipConfig skip;
 
-  /// Whether both have the same coefficients, and so a renderer.
+  /// Whether both are of one spline of one volume, and so have a reference in common.
+  bool same_spline(const CompareSetting& other) const;
+  /// The same, and the same coefficients: whether a renderer is theirs in common.
   bool same_coefficients(const CompareSetting& other) const;
   /// The same, and the same gradients: alike but for the way to the hit.
   bool same_reconstruction(const CompareSetting& other) const;
@@ -48,7 +51,8 @@ struct CompareSetting {
 struct CompareChoices {
   std::vector<std::string> splines;  ///< those whose lattice a volume has are taken
   std::vector<Spline::Prefilter> prefilters{Spline::Prefilter::automatic};  ///< those that a spline has are taken, each once
-  std::vector<Intersect> intersects{Intersect::exact, Intersect::march};
+  std::vector<Storage> storages{Storage::float32};
+  std::vector<Intersect> intersects{Intersect::exact, Intersect::march};  ///< exact where the spline is polynomial
   std::vector<double> steps{0.5, 0.25, 0.125};  ///< of march, cells
   std::vector<NormalChoice> normals{NormalChoice{}};
   std::vector<SkipConfig> skips{SkipConfig{}};

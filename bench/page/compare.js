@@ -9,7 +9,7 @@
 
   const splines = [], methods = ['exact'];
   const place = (list, what) => (list.includes(what) ? 0 : list.push(what), list.indexOf(what));
-  const groupOf = s => s.spline + (s.volume.endsWith('sparse') ? ' sparse' : '') + (s.prefilter === 'none' ? '' : ' ' + s.prefilter);
+  const groupOf = s => s.spline + (s.volume.endsWith('sparse') ? ' sparse' : '') + (s.prefilter === 'none' ? '' : ' ' + s.prefilter) + (s.storage === 'float32' ? '' : ' ' + s.storage);
   report.settings.forEach(s => { place(splines, groupOf(s)); place(methods, s.method); });
 
   // What a logarithmic axis shows of an error of 0.

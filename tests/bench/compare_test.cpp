@@ -75,6 +75,16 @@ TEST(CompareSettings, CombineWhatEachSplineHasOnTheVolumesOfItsLattice) {
   choices.skips = {SkipConfig{}, SkipConfig{.structure = "none"}};
   EXPECT_THAT(labels(subject, choices),
               ElementsAre("trilinear, exact", "trilinear, exact, none", "trilinear, exact, central 0.25", "trilinear, exact, central 0.25, none"));
+  choices.prefilters = {Spline::Prefilter::none};
+  choices.normals = {NormalChoice{}};
+  choices.skips = {SkipConfig{}};
+  choices.storages = {Storage::float32, Storage::unorm8};
+  EXPECT_THAT(labels(subject, choices), ElementsAre("trilinear, exact", "trilinear, unorm8, exact"));
+  // Pieces of cwlb are no polynomials.
+  choices.splines = {"cwlb"};
+  choices.storages = {Storage::float32};
+  choices.intersects = {Intersect::exact, Intersect::march};
+  EXPECT_THAT(labels(subject, choices), ElementsAre("cwlb, march 0.5"));
   choices.prefilters = {Spline::Prefilter::iir};
   EXPECT_THROW(compare_settings(subject, choices), InputError);
 }
@@ -127,7 +137,7 @@ TEST(CompareReport, HasAsManyFieldsInEachLineOfTheCsvAndTheSameNumbersInTheJson)
   report.measured.lines[2].truth.reset(), report.measured.lines[2].volume.reset();  // not known
   const std::vector<std::string> csv = test::lines(compare_csv(report));
   ASSERT_EQ(csv.size(), 4u);
-  for (const std::string& line : csv) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 37) << line;
+  for (const std::string& line : csv) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 38) << line;
   report = made_up(subject);
   const Json json = Json::parse(compare_json(report).dump());
   EXPECT_EQ(json["settings"][1]["errors"]["image"], 0.3);
@@ -198,7 +208,7 @@ TEST_F(CompareProgram, TakesAVolumeWhoseTruthIsNotKnown) {
   const test::Outcome run = test::run({"compare", QUINCUNX_SOURCE_DIR "/data/neghip_bcc.nrrd", "--iso", "40", "--splines", "bcc7", "--steps", "1", "--size", "32", "32", "--rounds", "1", "--normals", "analytic,0.5", "--structures",
                                        "grid,none", "--markdown", "-o", out});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("| bcc7   | bcc    | fir       | march 1 | central 0.5 | none"), Not(HasSubstr("true")), HasSubstr("Error and time")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("| bcc7   | bcc    | fir       | float32 | march 1 | central 0.5 | none"), Not(HasSubstr("true")), HasSubstr("Error and time")));
 }
 
 /// The body element of a page after a browser ran its scripts; "" where there is no browser.
@@ -224,6 +234,7 @@ TEST_F(CompareProgram, MakesAPageThatDrawsEveryCombinationInABrowser) {
 TEST_F(CompareProgram, RefusesWhatItCannotCompareAndWritesNothing) {
   expect_refused(compare({"--splines", "bcc9"}), {"bcc9", "bcc7"});
   expect_refused(compare({"--splines", "bcc7,bcc7"}), {"--splines: found bcc7 twice"});
+  expect_refused(compare({"--storage", "float64"}), {"--storage", "float64", "unorm8"});
   expect_refused(compare({"--steps", "0"}), {"--steps", "0.001"});
   expect_refused(compare({"--normals", "flat"}), {"--normals", "flat"});
   expect_refused(compare({"--preset", "table9"}), {"--preset", "table9", "table3"});
