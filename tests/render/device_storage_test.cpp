@@ -231,21 +231,21 @@ TEST_F(DeviceStorageTest, APoolShowsTheSameWithAnyNumberOfSlotsAndWhateverIsSkip
 
 TEST_F(DeviceStorageTest, SkippingChangesNoPixelOfVolumesMadeToBreakIt) {
   // Spikes beside constants: what one brick rounds by a thousand values its neighbour keeps.
+  std::size_t n = 0;
   for (const auto& [name, volume, isovalue] : adversarial_volumes()) {
+    SCOPED_TRACE(name);
     const Case c{"bcc7", volume};
-    for (const Storage storage : {Storage::unorm8, Storage::unorm16}) {
-      SCOPED_TRACE(name + ", " + storage_name(storage));
-      DeviceRenderer whole(test_kernels(), volume, config_of(c.spline, storage)), bricks = pooled(c, storage, 4, 1000);
-      for (DeviceRenderer* renderer : {&whole, &bricks}) {
-        Renderer::Request request = request_for(volume, isovalue, 24, 75.0, 35.0);
-        request.scene.isosurfaces.front().opacity = storage == Storage::unorm8 ? 0.4 : 1.0;
-        request.skip = {.structure = "none"};
-        RenderStats stats;
-        const Frame truth = renderer->render(request, stats);
-        for (const int block : {1, 4}) {
-          request.skip = {.structure = "grid", .block = block};
-          expect_same_picture(renderer->render(request, stats), truth);
-        }
+    const bool see_through = ++n % 2 == 0;
+    DeviceRenderer whole(test_kernels(), volume, config_of(c.spline, Storage::unorm8)), bricks = pooled(c, Storage::unorm8, 4, 1000);
+    for (DeviceRenderer* renderer : {&whole, &bricks}) {
+      Renderer::Request request = request_for(volume, isovalue, 24, 75.0, 35.0);
+      request.scene.isosurfaces.front().opacity = see_through ? 0.4 : 1.0;
+      request.skip = {.structure = "none"};
+      RenderStats stats;
+      const Frame truth = renderer->render(request, stats);
+      for (const int block : {1, 4}) {
+        request.skip = {.structure = "grid", .block = block};
+        expect_same_picture(renderer->render(request, stats), truth);
       }
     }
   }
