@@ -157,7 +157,11 @@ TEST(SweepReport, SaysWhatIsSeenAndHow) {
   report.look->classify = Classify::pre_integrated;
   EXPECT_EQ(sweep_subject(report), "transfer function head.json");
   EXPECT_EQ(sweep_method(report), "pre-integrated, unlit, steps of 1 cell");
+  EXPECT_EQ(sweep_json(report)["storage"], "float32");
+  report.storage = Storage::unorm16;
+  EXPECT_EQ(sweep_method(report), "pre-integrated, unlit, steps of 1 cell, coefficients in unorm16");
   const auto json = sweep_json(report);
+  EXPECT_EQ(json["storage"], "unorm16");
   EXPECT_EQ(json["transfer_function"]["file"], "folder/head.json");
   EXPECT_EQ(json["transfer_function"]["classify"], "pre-integrated");
 }

@@ -6,6 +6,7 @@
 #include "lattice/error.h"
 #include "lattice/field.h"
 #include "render/reference_renderer.h"
+#include "tests/render/adversarial_volumes.h"
 #include "tests/render/device_fixture.h"
 
 namespace quincunx {
@@ -226,6 +227,28 @@ TEST_F(DeviceStorageTest, APoolShowsTheSameWithAnyNumberOfSlotsAndWhateverIsSkip
           EXPECT_LT(stats.active_blocks, stats.blocks);
         }
       }
+}
+
+TEST_F(DeviceStorageTest, SkippingChangesNoPixelOfVolumesMadeToBreakIt) {
+  // Spikes beside constants: what one brick rounds by a thousand values its neighbour keeps.
+  std::size_t n = 0;
+  for (const auto& [name, volume, isovalue] : adversarial_volumes()) {
+    SCOPED_TRACE(name);
+    const Case c{"bcc7", volume};
+    const bool see_through = ++n % 2 == 0;
+    DeviceRenderer whole(test_kernels(), volume, config_of(c.spline, Storage::unorm8)), bricks = pooled(c, Storage::unorm8, 4, 1000);
+    for (DeviceRenderer* renderer : {&whole, &bricks}) {
+      Renderer::Request request = request_for(volume, isovalue, 24, 75.0, 35.0);
+      request.scene.isosurfaces.front().opacity = see_through ? 0.4 : 1.0;
+      request.skip = {.structure = "none"};
+      RenderStats stats;
+      const Frame truth = renderer->render(request, stats);
+      for (const int block : {1, 4}) {
+        request.skip = {.structure = "grid", .block = block};
+        expect_same_picture(renderer->render(request, stats), truth);
+      }
+    }
+  }
 }
 
 /// The greatest distance between the depths of two pictures of one closed surface, and the pixels that only one of them hits.
