@@ -34,7 +34,7 @@ struct Order {
   std::string_view name;
   double with_prefilter, without;
 };
-constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0}, {"trilinear", 2.0, 2.0}, {"tricubic", 4.0, 2.0}};
+constexpr Order kOrders[] = {{"bcc4", 2.0, 2.0}, {"bcc7", 4.0, 2.0}, {"bcc8", 4.0, 2.0}, {"trilinear", 2.0, 2.0}, {"tricubic", 4.0, 2.0}};
 
 TEST(Convergence, HasItsApproximationOrderWithPrefilterAndWithout) {
   ASSERT_EQ(std::size(kOrders), spline_names().size());
