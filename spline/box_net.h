@@ -43,4 +43,13 @@ class BoxNet {
   int at_[(Reach + 1) * (Reach + 2) * (Reach + 3) / 6] = {};
 };
 
+/// A BoxNet of any degree.
+struct NetView {
+  int degree, reach, denominator;
+  int (*at)(int i, int j, int k);  ///< the numerator at (i,j,k)/degree
+};
+
+template <const auto& kNet>
+inline constexpr NetView kNetView = {kNet.degree, kNet.reach, kNet.denominator, [](int i, int j, int k) { return kNet(i, j, k); }};
+
 }  // namespace quincunx

@@ -70,7 +70,8 @@ inline glm::i64vec3 index_of(const glm::ivec3& point, int coset) {
 
 template <int Degree, class Shape>
 Jet KuhnSpline<Degree, Shape>::generator(const glm::dvec3& x) const {
-  if (glm::any(glm::greaterThan(glm::abs(x), glm::dvec3(2.0 * Shape::apron + 2.0)))) return {};
+  // The support goes a lattice unit farther than the net.
+  if (glm::any(glm::greaterThan(glm::abs(x), glm::dvec3(Shape::net.reach / Degree + 1)))) return {};
   const glm::ivec3 cell(glm::floor(x));
   const Tetrahedron tetrahedron = locate(cell, x);
   TetrahedronNet<Degree> net;
