@@ -22,8 +22,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "accel/bcc7_bounds.h"
 #include "accel/cwlb_bounds.h"
+#include "accel/kuhn_bounds.h"
 #include "accel/tensor_bounds.h"
 
 namespace quincunx {
@@ -39,7 +39,9 @@ struct Row {
 
 /// The one list of splines that have bounds.
 constexpr Row kRows[] = {
+    {"bcc4", 1.0, bcc4_margin, bcc4_bounds},
     {"bcc7", 1.0, bcc7_margin, bcc7_bounds},
+    {"bcc8", 1.0, bcc8_margin, bcc8_bounds},
     {"cwlb", 1.0, cwlb_margin, cwlb_bounds},
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
     {"tricubic", 1.0, tricubic_margin, tricubic_bounds},

@@ -49,7 +49,8 @@ BoundsScale bounds_scale(const Spline& spline, Spline::Prefilter prefilter, doub
 double value_error(const Spline& spline, const BoundsScale& scale, double error);
 
 /// Bounds on `scale` over the cells of a box cut out of a volume, certain for each cell whose coefficients are the volume's: those that
-/// reach it, no farther, all within the box's extents. What is outside the box may be anything that the scale allows.
+/// reach it, no farther, all within the box's extents; of bcc4, whose slope jumps, those that reach its neighbours as well, within the box's
+/// apron at the farthest. What is outside the box may be anything that the scale allows.
 CellBounds cell_bounds(const Spline& spline, const Coefficients<float>& c, const BoundsScale& scale);
 
 }  // namespace quincunx

@@ -8,13 +8,19 @@
 
 namespace quincunx {
 
-/// For rows of cells, the largest |coefficient| among the samples that reach a cell or one of its 26 neighbours, or a
-/// little more: one number for the 8 cells 2i..2i+1, 2j..2j+1, 2k..2k+1, the largest of both cosets within 2 of
-/// (i,j,k). (A cell X is reached from X-2..X+3, its neighbours from X-3..X+4, so the pair from 2i-3..2i+5.)
+/// For rows of cells, the largest |coefficient| (or coefficient, or its negative) among the samples that reach a cell or one of its 26
+/// neighbours, or a little more: one number for the 8 cells 2i..2i+1, 2j..2j+1, 2k..2k+1, the largest of both cosets from (i,j,k) - before
+/// to (i,j,k) + after.
 class Magnitudes {
  public:
-  /// Of the index box [first, first+count) along y and z and all of x. `c` is bcc.
-  void compute(const Coefficients<float>& c, std::int64_t first_j, std::int64_t count_j, std::int64_t first_k,
+  enum class Of { absolute, value, negative };
+  /// At most 3 each.
+  struct Near {
+    int before, after;
+  };
+
+  /// Of the index box [first, first+count) along y and z and all of x. `c` is bcc; what is beyond its apron does not count.
+  void compute(const Coefficients<float>& c, const Near& near, Of of, std::int64_t first_j, std::int64_t count_j, std::int64_t first_k,
                std::int64_t count_k);
 
   /// The row (j,k), indexed by i.

@@ -7,30 +7,26 @@
 #include <map>
 #include <tuple>
 
-#include "spline/bcc7_net.h"
-
 namespace quincunx {
 namespace {
 
-constexpr int kPeriod = 8;  // quarter units between samples of a coset along an axis
 constexpr int kLanes = 8;   // floats of one AVX2 register; two registers where there is no AVX2
 constexpr int kBlock = 8;   // registers that a pass over the taps fills
 constexpr int kGrain = 16;  // rows are padded to a multiple of this many floats
-constexpr int kBefore = 1;  // samples that a line takes before its first and after its last
 
 /// Unaligned loads and stores of kLanes floats, lane by lane as written.
 typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(alignof(float)), may_alias));
 
 /// One line's work, in plain pointers.
 struct Line {
-  const float* const* rows;  ///< the rows of samples, each from index -kBefore
+  const float* const* rows;  ///< the rows of samples, each from the first that the line takes
   const int* group_end;
   int groups;
   std::int64_t read;   ///< samples to read of each row
   std::int64_t pitch;  ///< floats of a row of the net, a multiple of kGrain
   std::int64_t sample_pitch;
   float* samples;  ///< groups * sample_pitch
-  float* net;      ///< kPeriod * pitch
+  float* net;      ///< period * pitch, and one row more
 };
 
 /// Sums the rows of each group. What is past the end repeats the last sample: finite, and read by no cell.
@@ -65,8 +61,9 @@ template <int Registers>
 }
 
 /// The rows of the net for all residues of x.
+template <int Period>
 [[gnu::always_inline]] inline void convolve_all(const Line& line, const NetLines::Tap* taps, const int* tap_end) {
-  for (int a = 0; a < kPeriod; ++a) {
+  for (int a = 0; a < Period; ++a) {
     std::int64_t i = 0;
     for (; i + kBlock * kLanes <= line.pitch; i += kBlock * kLanes)
       convolve<kBlock>(taps + tap_end[a], taps + tap_end[a + 1], line.samples, i, line.net + a * line.pitch);
@@ -75,13 +72,14 @@ template <int Registers>
   }
 }
 
-/// Widens [min[i], max[i]] by the range of 5 rows of the net, the last of them from `end` on.
+/// Widens [min[i], max[i]] by the range of Degree + 1 rows of the net, the last of them from `end` on.
+template <int Degree>
 [[gnu::always_inline]] inline void widen_cells(const float* net, std::int64_t pitch, const float* end, float* min,
                                                float* max) {
   for (std::int64_t i = 0; i < pitch; i += kLanes) {
     Lanes low = *reinterpret_cast<const Lanes*>(end + i), high = low;
-#pragma GCC unroll 4
-    for (int a = 0; a < 4; ++a) {
+#pragma GCC unroll 8
+    for (int a = 0; a < Degree; ++a) {
       const Lanes v = *reinterpret_cast<const Lanes*>(net + a * pitch + i);
       low = v < low ? v : low;
       high = v > high ? v : high;
@@ -93,56 +91,79 @@ template <int Registers>
   }
 }
 
+template <int Degree>
 [[gnu::always_inline]] inline void widen_rows(const Line& line, const NetLines::Tap* taps, const int* tap_end,
                                               RowRange* const* rows, int count) {
   gather(line);
-  convolve_all(line, taps, tap_end);
+  convolve_all<2 * Degree>(line, taps, tap_end);
   // The last row once more, one to the left: the far end of the odd cells.
-  float* shifted = line.net + kPeriod * line.pitch;
+  float* shifted = line.net + 2 * Degree * line.pitch;
   for (std::int64_t i = 0; i + 1 < line.pitch; ++i) shifted[i] = line.net[i + 1];
   shifted[line.pitch - 1] = line.net[line.pitch - 1];
   for (int r = 0; r < count; ++r) {
     float* min = rows[r]->min.data();
     float* max = rows[r]->max.data();
-    widen_cells(line.net, line.pitch, line.net + 4 * line.pitch, min, max);
-    widen_cells(line.net + 4 * line.pitch, line.pitch, shifted, min + line.pitch, max + line.pitch);
+    widen_cells<Degree>(line.net, line.pitch, line.net + Degree * line.pitch, min, max);
+    widen_cells<Degree>(line.net + Degree * line.pitch, line.pitch, shifted, min + line.pitch, max + line.pitch);
   }
 }
 
 using WidenRows = void (*)(const Line&, const NetLines::Tap*, const int*, RowRange* const*, int);
 
+template <int Degree>
 void widen_rows_portable(const Line& line, const NetLines::Tap* taps, const int* tap_end, RowRange* const* rows,
                          int count) {
-  widen_rows(line, taps, tap_end, rows, count);
+  widen_rows<Degree>(line, taps, tap_end, rows, count);
 }
 
 #if defined(__x86_64__)
 // Not target_clones: its resolvers run before AddressSanitizer is ready.
+template <int Degree>
 [[gnu::target("avx2")]] void widen_rows_avx2(const Line& line, const NetLines::Tap* taps, const int* tap_end,
                                              RowRange* const* rows, int count) {
-  widen_rows(line, taps, tap_end, rows, count);
+  widen_rows<Degree>(line, taps, tap_end, rows, count);
 }
-WidenRows best_widen_rows() { return __builtin_cpu_supports("avx2") ? widen_rows_avx2 : widen_rows_portable; }
+template <int Degree>
+WidenRows best_widen_rows() {
+  return __builtin_cpu_supports("avx2") ? widen_rows_avx2<Degree> : widen_rows_portable<Degree>;
+}
 #else
-WidenRows best_widen_rows() { return widen_rows_portable; }
+template <int Degree>
+WidenRows best_widen_rows() {
+  return widen_rows_portable<Degree>;
+}
 #endif
 
-/// Places of samples of a coset along one axis, index units, whose net reaches residue r (quarter units).
-std::vector<int> reaching(int coset, int r) {
-  std::vector<int> places;
-  for (int d = -2; d <= 2; ++d)
-    if (std::abs(r - 4 * coset - kPeriod * d) <= kBcc7NetReach) places.push_back(d);
-  return places;
+template <int Degree>
+WidenRows widen_rows_with(NetLines::Instructions instructions) {
+  static const WidenRows best = best_widen_rows<Degree>();
+  return instructions == NetLines::Instructions::best ? best : widen_rows_portable<Degree>;
+}
+
+WidenRows widen_rows_of(int degree, NetLines::Instructions instructions) {
+  assert(degree == 1 || degree == 4 || degree == 5);
+  return degree == 1 ? widen_rows_with<1>(instructions) : degree == 4 ? widen_rows_with<4>(instructions) : widen_rows_with<5>(instructions);
 }
 
 }  // namespace
 
-NetLines::NetLines(const Coefficients<float>& c, Instructions instructions) : c_(c), instructions_(instructions) {
-  assert(c.lattice == LatticeKind::bcc && c.apron >= kBefore);
+std::vector<int> NetLines::reaching(int coset, int r) const {
+  std::vector<int> places;
+  for (int d = -3; d <= 3; ++d)
+    if (std::abs(r - net_.degree * coset - period_ * d) <= net_.reach) places.push_back(d);
+  return places;
+}
+
+NetLines::NetLines(const Coefficients<float>& c, const NetView& net, Instructions instructions)
+    : c_(c), net_(net), instructions_(instructions), period_(2 * net.degree) {
   pitch_ = (c.extents.x + kGrain - 1) / kGrain * kGrain;
   sample_pitch_ = pitch_ + kGrain;
-  for (int z = 0; z < kPeriod; ++z)
-    for (int y = 0; y < kPeriod; ++y) recipes_.push_back(make_recipe(y, z));
+  for (int coset = 0; coset < 2; ++coset)
+    for (int r = 0; r < period_; ++r)
+      for (const int d : reaching(coset, r)) before_ = std::max(before_, std::abs(d));
+  assert(c.lattice == LatticeKind::bcc && c.apron >= before_);
+  for (int z = 0; z < period_; ++z)
+    for (int y = 0; y < period_; ++y) recipes_.push_back(make_recipe(y, z));
 }
 
 NetLines::Recipe NetLines::make_recipe(int y, int z) const {
@@ -151,7 +172,8 @@ NetLines::Recipe NetLines::make_recipe(int y, int z) const {
   for (int coset = 0; coset < 2; ++coset)
     for (int k : reaching(coset, z))
       for (int j : reaching(coset, y)) {
-        const int dy = std::abs(y - 4 * coset - kPeriod * j), dz = std::abs(z - 4 * coset - kPeriod * k);
+        const int dy = std::abs(y - net_.degree * coset - period_ * j), dz = std::abs(z - net_.degree * coset - period_ * k);
+        if (net_.at(0, dy, dz) == 0) continue;  // and so along the whole line
         groups[{coset, std::max(dy, dz), std::min(dy, dz)}].push_back(coset * c_.stride_coset() + k * c_.stride_z() +
                                                                       j * c_.stride_y());
       }
@@ -160,16 +182,16 @@ NetLines::Recipe NetLines::make_recipe(int y, int z) const {
     recipe.rows.insert(recipe.rows.end(), rows.begin(), rows.end());
     recipe.group_end.push_back(int(recipe.rows.size()));
   }
-  for (int x = 0; x < kPeriod; ++x) {
+  for (int x = 0; x < period_; ++x) {
     int g = 0;
     for (const auto& [key, rows] : groups) {
       const auto [coset, d1, d2] = key;
       for (int i : reaching(coset, x))
-        if (const int w = bcc7_net(x - 4 * coset - kPeriod * i, d1, d2); w != 0)
-          recipe.taps.push_back({std::int32_t(g * sample_pitch_) + kBefore + i, float(w) / float(kBcc7NetDenominator)});
+        if (const int w = net_.at(x - net_.degree * coset - period_ * i, d1, d2); w != 0)
+          recipe.taps.push_back({std::int32_t(g * sample_pitch_) + before_ + i, float(w) / float(net_.denominator)});
       ++g;
     }
-    recipe.tap_end[x + 1] = int(recipe.taps.size());
+    recipe.tap_end.push_back(int(recipe.taps.size()));
   }
   return recipe;
 }
@@ -178,7 +200,7 @@ NetLines::Workspace NetLines::workspace() const {
   std::size_t groups = 0;
   for (const Recipe& r : recipes_) groups = std::max(groups, r.group_end.size() - 1);
   return {std::vector<float>(groups * std::size_t(sample_pitch_)),
-          std::vector<float>((kPeriod + 1) * std::size_t(pitch_))};
+          std::vector<float>(std::size_t(period_ + 1) * std::size_t(pitch_))};
 }
 
 RowRange NetLines::empty_range() const {
@@ -188,9 +210,8 @@ RowRange NetLines::empty_range() const {
 }
 
 void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* const* ranges, int count) const {
-  static const WidenRows best = best_widen_rows();
-  const Recipe& recipe = recipes_[std::size_t(z % kPeriod * kPeriod + y % kPeriod)];
-  const float* base = c_.data.data() + c_.number(0, {-kBefore, y / kPeriod, z / kPeriod});
+  const Recipe& recipe = recipes_[std::size_t(z % period_ * period_ + y % period_)];
+  const float* base = c_.data.data() + c_.number(0, {-before_, y / period_, z / period_});
 
   constexpr std::size_t kMostRows = 32;
   const float* rows[kMostRows];
@@ -199,13 +220,12 @@ void NetLines::widen(std::int64_t y, std::int64_t z, Workspace& work, RowRange* 
   const Line line{rows,
                   recipe.group_end.data(),
                   int(recipe.group_end.size()) - 1,
-                  c_.extents.x + 2 * kBefore,
+                  c_.extents.x + 2 * before_,
                   pitch_,
                   sample_pitch_,
                   work.samples.data(),
                   work.net.data()};
-  (instructions_ == Instructions::best ? best : widen_rows_portable)(line, recipe.taps.data(), recipe.tap_end, ranges,
-                                                                     count);
+  widen_rows_of(net_.degree, instructions_)(line, recipe.taps.data(), recipe.tap_end.data(), ranges, count);
 }
 
 }  // namespace quincunx

@@ -47,14 +47,9 @@ glm::dvec3 grid_spacing(const Volume& volume) {
   return double(lattice_step(volume.lattice)) * glm::dvec3(glm::length(e[0]), glm::length(e[1]), glm::length(e[2]));
 }
 
-/// Bytes of the spline's coefficients in 32-bit floats; 0 on a lattice that no spline here is for.
+/// Bytes of the coefficients of the lattice's default spline in 32-bit floats.
 std::uint64_t coefficient_bytes(const Volume& volume) {
-  for (const std::string_view name : spline_names()) {
-    const auto spline = make_spline(name);
-    if (spline->lattice() != volume.lattice) continue;
-    return coefficient_count(volume.lattice, volume.extents, spline->apron()) * sizeof(float);
-  }
-  return 0;
+  return coefficient_count(volume.lattice, volume.extents, make_spline("", volume.lattice)->apron()) * sizeof(float);
 }
 
 Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }

@@ -78,9 +78,14 @@ mpq_class ExactBoxSpline::recurse(Subset subset, const RationalPoint& x,
     for (std::size_t r = 0; r < directions_.size(); ++r) {
       if (!(subset >> r & 1u)) continue;
       const mpq_class t = dot(inverse[row++], x);
+      // Equal directions have equal t and leave equal box splines: the last of them counts for all.
+      int equal = 0, later = 0;
+      for (std::size_t q = 0; q < directions_.size(); ++q)
+        if ((subset >> q & 1u) && directions_[q] == directions_[r]) ++equal, later += q > r;
+      if (later > 0) continue;
       const Subset rest = subset & ~(1u << r);
-      sum += t * recurse(rest, x, known);
-      sum += (1 - t) * recurse(rest, minus(x, directions_[r]), known);
+      sum += equal * t * recurse(rest, x, known);
+      sum += equal * (1 - t) * recurse(rest, minus(x, directions_[r]), known);
     }
     sum /= int(inverse.size()) - 3;
   }
@@ -120,10 +125,16 @@ RationalPoint ExactBoxSpline::gradient(const RationalPoint& x) {
   return gradient;
 }
 
-const std::vector<glm::ivec3>& bcc7_directions() {
-  static const std::vector<glm::ivec3> directions = {{2, 0, 0},  {0, 2, 0},  {0, 0, 2},   {-1, 1, 1},
-                                                     {1, -1, 1}, {1, 1, -1}, {-1, -1, -1}};
-  return directions;
+std::vector<glm::ivec3> bcc4_directions() { return {{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, -1}}; }
+
+std::vector<glm::ivec3> bcc7_directions() {
+  return {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, -1}};
+}
+
+std::vector<glm::ivec3> bcc8_directions() {
+  std::vector<glm::ivec3> twice = bcc4_directions();
+  for (const glm::ivec3& direction : bcc4_directions()) twice.push_back(direction);
+  return twice;
 }
 
 }  // namespace quincunx

@@ -16,7 +16,7 @@ using RationalPoint = std::array<mpq_class, 3>;
 /// C. de Boor, K. Hoellig, S. Riemenschneider, Box Splines, Springer 1993: with x = sum_r t_r xi_r (the least-norm t),
 ///   (n - 3) M(x) = sum_r t_r M_r(x) + (1 - t_r) M_r(x - xi_r),
 /// M_r the box spline without direction r, not centred. Values are right at points on no knot plane; the points on
-/// knot planes are for those who know the polynomials (bcc7_derivation.h).
+/// knot planes are for those who know the polynomials (box_net_derivation.h).
 class ExactBoxSpline {
  public:
   explicit ExactBoxSpline(std::vector<glm::ivec3> directions);
@@ -41,7 +41,9 @@ class ExactBoxSpline {
   std::map<Subset, std::vector<RationalPoint>> inverses_;
 };
 
-/// M7 = 4 times the centred box spline of these.
-const std::vector<glm::ivec3>& bcc7_directions();
+/// M4, M7 and M8 are 4 times the centred box splines of these.
+std::vector<glm::ivec3> bcc4_directions();
+std::vector<glm::ivec3> bcc7_directions();
+std::vector<glm::ivec3> bcc8_directions();
 
 }  // namespace quincunx

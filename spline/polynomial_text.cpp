@@ -1,5 +1,8 @@
 #include "spline/polynomial_text.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cassert>
 
 namespace quincunx {
@@ -81,14 +84,14 @@ class LineRestriction {
   std::vector<std::string> multiply_add(const std::vector<std::string>& p, int axis,
                                         const std::vector<std::string>& q) {
     std::vector<std::string> product;
-    for (std::size_t n = 0; n <= p.size(); ++n) {
+    for (std::size_t n = 0; n < std::max(p.size() + 1, q.size()); ++n) {
       std::string text = n < p.size() ? p[n] + " * " + start_[axis] : "";
       int operations = n < p.size() ? 1 : 0;
       const auto add = [&](const std::string& term, int cost) {
         operations += cost + (text.empty() ? 0 : 1);
         text += (text.empty() ? "" : " + ") + term;
       };
-      if (n > 0) add(p[n - 1] + " * " + step_[axis], 1);
+      if (n > 0 && n <= p.size()) add(p[n - 1] + " * " + step_[axis], 1);
       if (n < q.size()) add(q[n], 0);
       product.push_back(define(text, operations));
     }
@@ -120,34 +123,26 @@ Expression horner_text(const Polynomial& p, const std::array<std::string, 3>& va
   return horner(p, variables, order, 0);
 }
 
-Statements restriction_text(const Polynomial& p, const std::array<std::string, 3>& start,
+Statements restriction_text(const Polynomial& p, int degree, const std::array<std::string, 3>& start,
                             const std::array<std::string, 3>& step, const std::array<int, 3>& order,
                             const std::string& type, const std::string& prefix) {
   LineRestriction line(start, step, order, type, prefix);
   const std::vector<std::string> a = line.restricted(p, 0);
-  assert(a.size() == 5);
-  // The differences of Bernstein coefficients at t = 0 are a_k / binomial(4, k); sum them up.
-  std::string d1 = line.define("0.25 * " + a[1], 1);
-  std::string d2 = line.define("(1.0 / 6.0) * " + a[2], 1);
-  std::string d3 = line.define("0.25 * " + a[3], 1);
-  const std::string& d4 = a[4];
-  const auto sum = [&](const std::string& left, const std::string& right) {
-    return line.define(left + " + " + right, 1);
-  };
-  const std::string b1 = sum(a[0], d1);
-  d1 = sum(d1, d2);
-  const std::string b2 = sum(b1, d1);
-  d2 = sum(d2, d3);
-  d1 = sum(d1, d2);
-  const std::string b3 = sum(b2, d1);
-  d3 = sum(d3, d4);
-  d2 = sum(d2, d3);
-  d1 = sum(d1, d2);
-  line.assign("b0", a[0], 0);
-  line.assign("b1", b1, 0);
-  line.assign("b2", b2, 0);
-  line.assign("b3", b3, 0);
-  line.assign("b4", b3 + " + " + d1, 1);
+  const std::size_t n = std::size_t(degree);
+  assert(a.size() == n + 1);
+  // The differences of Bernstein coefficients at t = 0 are a_k / binomial(n, k); sum them up.
+  std::vector<std::string> d = a, b = {a[0]};
+  int binomial = 1;
+  for (std::size_t k = 1; k < n; ++k) {
+    binomial = binomial * int(n - k + 1) / int(k);
+    d[k] = line.define(fmt::format("{} * {}", binomial == 4 ? "0.25" : fmt::format("(1.0 / {}.0)", binomial), a[k]), 1);
+  }
+  const auto sum = [](const std::string& left, const std::string& right) { return left + " + " + right; };
+  for (std::size_t m = 1; m <= n; ++m) {
+    for (std::size_t k = m - 1; k > 0; --k) d[k] = line.define(sum(d[k], d[k + 1]), 1);
+    b.push_back(m < n ? line.define(sum(b.back(), d[1]), 1) : sum(b.back(), d[1]));
+  }
+  for (std::size_t m = 0; m <= n; ++m) line.assign(fmt::format("b{}", m), b[m], m == n ? 1 : 0);
   Statements statements = line.statements();
   statements.lines.insert(statements.lines.begin(), "{");
   statements.lines.push_back("}");

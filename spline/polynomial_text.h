@@ -36,10 +36,10 @@ struct Statements {
   int operations = 0;
 };
 
-/// A block that assigns to b0..b4 the Bernstein coefficients of a polynomial of degree 4 with unit factors along
+/// A block that assigns to b0..b<degree> the Bernstein coefficients of a polynomial of that degree with unit factors along
 /// start + t step, 0 <= t <= 1: Horner's scheme on polynomials in t, then differences. Locals are of `type`, named
 /// after `prefix`.
-Statements restriction_text(const Polynomial& p, const std::array<std::string, 3>& start,
+Statements restriction_text(const Polynomial& p, int degree, const std::array<std::string, 3>& start,
                             const std::array<std::string, 3>& step, const std::array<int, 3>& order,
                             const std::string& type, const std::string& prefix);
 

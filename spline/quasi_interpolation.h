@@ -21,6 +21,8 @@ struct BccMask {
 inline constexpr BccMask kIdentityMask{1, 0, 0, 1};
 /// q7 of bcc7: 19/12 at the centre, -1/24 at the 14 neighbours.
 inline constexpr BccMask kBcc7Mask{38, -1, -1, 24};
+/// For bcc8: 5/3 at the centre, -1/12 at the 8 points (+-1,+-1,+-1).
+inline constexpr BccMask kBcc8Mask{20, 0, -1, 12};
 
 /// A symmetric mask of three taps, integers over one denominator, applied along each axis of a Cartesian grid. Where the
 /// sides are 0 it must be the identity.

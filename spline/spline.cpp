@@ -4,8 +4,10 @@
 #include <string>
 
 #include "lattice/error.h"
+#include "spline/bcc4.h"
 #include "spline/bcc7.h"
 #include "spline/cwlb.h"
+#include "spline/bcc8.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
 
@@ -24,7 +26,9 @@ std::unique_ptr<Spline> make() {
 }
 
 constexpr Row kSplines[] = {
+    {"bcc4", make<Bcc4>},
     {"bcc7", make<Bcc7>},
+    {"bcc8", make<Bcc8>},
     {"cwlb", make<Cwlb>},
     {"trilinear", make<Trilinear>},
     {"tricubic", make<Tricubic>},

@@ -28,7 +28,8 @@ struct Tetrahedron {
 };
 
 /// The tetrahedron of `cell` (its lower corner) that holds u; the nearest by order of coordinates where u is outside
-/// the cell. A point on a face between tetrahedra goes to the one that walks the lower axis first.
+/// the cell. A point on a face between tetrahedra goes to the one that holds u + (e, e^2, e^3) for small e > 0, so that shifts by lattice
+/// points do not change which side it goes to.
 Tetrahedron locate(const glm::ivec3& cell, const glm::dvec3& u);
 
 // The bodies are here: they are a few instructions each, inside every evaluation.
@@ -59,9 +60,11 @@ inline Tetrahedron locate(const glm::ivec3& cell, const glm::dvec3& u) {
   const glm::ivec3 odd = cell & 1;
   Tetrahedron t{cell + odd, 1 - 2 * odd, {0, 1, 2}};
   const glm::dvec3 w = glm::dvec3(t.sign) * (u - glm::dvec3(t.even));
-  // Rank each axis by its coordinate, descending; ties keep the lower axis first.
-  const int rank_x = (w.y > w.x) + (w.z > w.x);
-  const int rank_y = (w.x >= w.y) + (w.z > w.y);
+  // Rank each axis by its coordinate, descending; of two equal ones the lower axis comes first if it ascends with u.
+  const bool x_ascends = t.sign.x > 0, y_ascends = t.sign.y > 0;
+  const bool y_before_x = w.y > w.x || (w.y == w.x && !x_ascends);
+  const int rank_x = y_before_x + (w.z > w.x || (w.z == w.x && !x_ascends));
+  const int rank_y = !y_before_x + (w.z > w.y || (w.z == w.y && !y_ascends));
   t.axis[rank_x] = 0;
   t.axis[rank_y] = 1;
   t.axis[3 - rank_x - rank_y] = 2;

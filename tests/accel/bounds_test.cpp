@@ -125,7 +125,9 @@ TEST_P(Bounds, TheCheckSeesBoundsThatAreTooTight) {
 }
 
 /// A tenth to a twentieth of K, in units of 2^-24 of the largest coefficient.
-double allowed_error(std::string_view spline) { return spline == "bcc7" ? 51.2 : spline == "trilinear" || spline == "cwlb" ? 15.0 : 25.0; }
+double allowed_error(std::string_view spline) {
+  return spline == "bcc4" ? 12.8 : spline == "bcc7" || spline == "bcc8" ? 51.2 : spline == "trilinear" || spline == "cwlb" ? 15.0 : 25.0;
+}
 
 TEST_P(Bounds, ErrorsOfFloatsAreAFractionOfTheEvaluationMarginWhereMostCancels) {
   // Errors of Bernstein coefficients where cancellation is worst.
@@ -155,8 +157,8 @@ TEST_P(Bounds, ErrorsOfFloatsAreAFractionOfTheEvaluationMarginWhereMostCancels) 
     }
   }
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_GT(worst, 0.5);
-  EXPECT_LT(worst, allowed_error(GetParam()));
+  EXPECT_GE(worst, GetParam() == "bcc4" ? 0.0 : 0.5);  // of bcc4 nothing is rounded at such places
+  std::printf("worst %g\n", worst); EXPECT_LT(worst, allowed_error(GetParam()));
 }
 
 /// How much wider than the spline's range the bounds are on average: the tricubic net has 4 points along an axis for pieces of

@@ -9,7 +9,7 @@
 
 namespace quincunx {
 
-/// Coefficients with an apron that repeats the border, of one sample for BCC and of two, enough for axes of one sample, for Cartesian;
+/// Coefficients with an apron that repeats the border, of two samples: enough for every spline, and for Cartesian axes of one sample;
 /// value(coset, index) is rounded to float.
 Coefficients<float> make_coefficients(const Extents& extents, const std::function<double(int, const glm::i64vec3&)>& value,
                                       LatticeKind lattice = LatticeKind::bcc);

@@ -5,23 +5,30 @@
 #include <string>
 
 #include "float_piece.h"
+#include "spline/bcc4_net.h"
+#include "spline/bcc7_net.h"
+#include "spline/bcc8_net.h"
 
 namespace quincunx {
 namespace {
 
-/// bcc7: a tetrahedron.
-class Quartic final : public FloatKernel {
+/// A box spline of the BCC lattice: a tetrahedron.
+template <const auto& kNet>
+class Kuhn final : public FloatKernel {
  public:
-  Quartic(const Coefficients<float>& c, const Tetrahedron& tetrahedron) : tetrahedron_(tetrahedron), piece_(c, tetrahedron) {}
+  Kuhn(const Coefficients<float>& c, const Tetrahedron& tetrahedron) : tetrahedron_(tetrahedron), piece_(c, tetrahedron, kNetView<kNet>, stencil()) {}
 
   float value(const glm::dvec3& u) const override { return piece_.value(glm::vec3(tetrahedron_.frame(u))); }
   std::vector<float> bernstein(const glm::dvec3& a, const glm::dvec3& b) const override {
-    const auto five = piece_.bernstein(glm::vec3(tetrahedron_.frame(a)), glm::vec3(tetrahedron_.frame(b)));
-    return {five.begin(), five.end()};
+    return piece_.bernstein(glm::vec3(tetrahedron_.frame(a)), glm::vec3(tetrahedron_.frame(b)));
   }
   glm::dvec3 vertex(int n) const override { return glm::dvec3(tetrahedron_.vertex(n % 4)); }
 
  private:
+  static const std::vector<StencilSample>& stencil() {
+    static const std::vector<StencilSample> samples = piece_stencil(kNetView<kNet>);
+    return samples;
+  }
   Tetrahedron tetrahedron_;
   FloatPiece piece_;
 };
@@ -158,6 +165,9 @@ std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficien
                                           const glm::dvec3& u) {
   if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
   if (spline.name() == "cwlb") return std::make_unique<CosineWeighted>(c, cell);
+  if (spline.name() == "bcc4") return std::make_unique<Kuhn<kBcc4Net>>(c, locate(cell, u));
+  if (spline.name() == "bcc7") return std::make_unique<Kuhn<kBcc7Net>>(c, locate(cell, u));
+  if (spline.name() == "bcc8") return std::make_unique<Kuhn<kBcc8Net>>(c, locate(cell, u));
   if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
   if (spline.name() == "tricubic") return std::make_unique<Cubic>(c, cell);
   throw std::logic_error("no kernel in floats for spline " + std::string(spline.name()));

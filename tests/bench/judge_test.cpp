@@ -108,7 +108,7 @@ TEST_P(JudgeTest, SeesNaN) {
   EXPECT_FALSE(judge(frame_).passed());
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, JudgeTest, ::testing::Values("bcc7", "trilinear", "tricubic"), [](const auto& name) { return std::string(name.param); });
+INSTANTIATE_TEST_SUITE_P(Splines, JudgeTest, ::testing::ValuesIn(spline_names()), [](const auto& name) { return std::string(name.param); });
 
 /// A plane of rays along x at heights about a sheet that they graze: f = z - 15.25 - 1e-9 (x - 15.5)^2 would be decided by rounding.
 TEST(Judge, ExcusesWhatRoundingMayDecideAndNothingMore) {

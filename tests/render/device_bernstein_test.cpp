@@ -12,7 +12,7 @@ namespace {
 
 using Polynomial = std::vector<float>;  // Bernstein coefficients on [0,1], the first one positive
 
-/// The degrees along a ray: trilinear, bcc7, tricubic.
+/// The degrees along a ray: bcc4, trilinear, bcc7, bcc8, tricubic.
 class DeviceBernsteinTest : public DeviceTest, public ::testing::WithParamInterface<int> {
  protected:
   std::vector<float> device_roots(const std::vector<Polynomial>& polynomials) const {
@@ -110,6 +110,7 @@ TEST_P(DeviceBernsteinTest, FindsTheFirstOfAsManyRootsAsThereCanBe) {
 }
 
 TEST_P(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
+  if (GetParam() == 1) GTEST_SKIP() << "a line does not turn back";
   // (x - r)^2 - e, between steep walls or gentle ones, the far end positive: two roots close together.
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform;
@@ -126,6 +127,7 @@ TEST_P(DeviceBernsteinTest, FindsADipBelowZeroHoweverShallow) {
 }
 
 TEST_P(DeviceBernsteinTest, FindsTheRootBeforeAnEndAtWhichTheValueIsAlmostZero) {
+  if (GetParam() == 1) GTEST_SKIP() << "a line does not turn back";
   // (r - x)(1 + e - x) with the second root just behind the end: there the value is 0 but for a few roundings, and is no root.
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform;
@@ -142,6 +144,7 @@ TEST_P(DeviceBernsteinTest, FindsTheRootBeforeAnEndAtWhichTheValueIsAlmostZero) 
 }
 
 TEST_P(DeviceBernsteinTest, SeesNoRootWhereOneIsJustMissed) {
+  if (GetParam() == 1) GTEST_SKIP() << "a line does not turn back";
   // (x - r)^2 + e with e beyond doubt.
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform;
@@ -160,7 +163,7 @@ TEST_P(DeviceQuarticTest, FindsTheRootsThatAnImageLost) {
   expect_right({{2100.33f, 70.3226f, -692.753f, -220.221f, 1282.43f}, {0.873265f, -12.2934f, -33.2884f, -26.9711f, 48.1246f}});
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees, DeviceBernsteinTest, ::testing::Values(3, 4, 9));
+INSTANTIATE_TEST_SUITE_P(Degrees, DeviceBernsteinTest, ::testing::Values(1, 3, 4, 5, 9));
 INSTANTIATE_TEST_SUITE_P(Degrees, DeviceQuarticTest, ::testing::Values(4));
 
 }  // namespace

@@ -203,7 +203,7 @@ TEST_P(DeviceSplineTest, RefinesARootByOneNewtonStepAndGivesTheGradientThere) {
   EXPECT_GT(checked, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "cwlb", "trilinear", "tricubic"),
+INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::ValuesIn(spline_names()),
                          [](const auto& name) { return std::string(name.param); });
 
 }  // namespace

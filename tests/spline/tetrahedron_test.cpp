@@ -46,6 +46,17 @@ TEST(Tetrahedron, HoldsThePointItWasLocatedFor) {
   }
 }
 
+TEST(Tetrahedron, IsTheSameSetAfterAShiftByALatticePointOnFacesToo) {
+  Random random(4);
+  for (int n = 0; n < 1000; ++n) {
+    const glm::dvec3 u = glm::round(random.point(glm::dvec3(-5.0), glm::dvec3(5.0)) * 4.0) / 4.0;
+    const int coset = n & 1;
+    const glm::ivec3 shift = 2 * glm::ivec3(random.point(glm::dvec3(-4.0), glm::dvec3(4.0))) + coset;
+    const Tetrahedron t = locate(glm::ivec3(glm::floor(u)), u), moved = locate(glm::ivec3(glm::floor(u)) + shift, u + glm::dvec3(shift));
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(moved.vertex(i), t.vertex(coset ? 3 - i : i) + shift) << u.x << ' ' << u.y << ' ' << u.z;
+  }
+}
+
 TEST(Tetrahedron, ComesIn24KindsOfWhichEveryCellHasSix) {
   Random random(3);
   std::set<std::vector<int>> kinds;

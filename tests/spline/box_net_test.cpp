@@ -1,5 +1,5 @@
-// The Bernstein-Bezier net of M7, in integers.
-#include "spline/bcc7_net.h"
+// The Bernstein-Bezier nets of the BCC lattice's box splines, in integers.
+#include "spline/box_net.h"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +7,44 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "spline/bcc4_net.h"
+#include "spline/bcc7_net.h"
+#include "spline/bcc8_net.h"
 #include "spline/tetrahedron.h"
 
 namespace quincunx {
 namespace {
 
-int net(const glm::ivec3& q) { return bcc7_net(q.x, q.y, q.z); }
+/// A spline's net and what is known of it.
+struct NetOf {
+  std::string name;
+  int degree, denominator, reach;
+  int (*at)(int i, int j, int k);
+  std::span<const NetOrbit> orbits;
+  std::size_t orbit_count;
+  int at_origin;
+  int across_cells, inside_cells;  // derivatives that agree across the faces of cells, and across the planes inside them
+};
+
+template <const auto& kNet>
+int value_of(int i, int j, int k) {
+  return kNet(i, j, k);
+}
+
+// So many directions less 2 leave a plane as derivatives agree: of bcc7 5 leave x = 0 and 4 leave x = y; of bcc4 and bcc8 no two lie in
+// x = 0, which so is no knot plane, and 2 and 4 leave x = y.
+const NetOf kNets[] = {
+    {"bcc4", 1, kBcc4Net.denominator, kBcc4Net.reach, value_of<kBcc4Net>, kBcc4NetOrbits, 2, 2, 1, 0},
+    {"bcc7", 4, kBcc7Net.denominator, kBcc7Net.reach, value_of<kBcc7Net>, kBcc7NetOrbits, 115, 144, 3, 2},
+    {"bcc8", 5, kBcc8Net.denominator, kBcc8Net.reach, value_of<kBcc8Net>, kBcc8NetOrbits, 268, 768, 5, 2},
+};
+
+class Net : public testing::TestWithParam<NetOf> {};
 
 int factorial(int n) { return n <= 1 ? 1 : n * factorial(n - 1); }
 
@@ -80,11 +108,13 @@ std::array<int, 4> barycentric(const Face& face) {
 
 /// Whether the derivatives of order `order` across the face agree (G. Farin's conditions: the coefficients of one side
 /// are polar forms of the other).
-bool joins(const Face& face, int order) {
+bool joins(const NetOf& spline, const Face& face, int order) {
   const std::array<int, 4> tau = barycentric(face);
-  for (int i = 0; i <= 4 - order; ++i)
-    for (int j = 0; i + j <= 4 - order; ++j) {
-      const glm::ivec3 on_face = i * face.corners[0] + j * face.corners[1] + (4 - order - i - j) * face.corners[2];
+  const auto net = [&](const glm::ivec3& q) { return spline.at(q.x, q.y, q.z); };
+  const int rest = spline.degree - order;
+  for (int i = 0; i <= rest; ++i)
+    for (int j = 0; i + j <= rest; ++j) {
+      const glm::ivec3 on_face = i * face.corners[0] + j * face.corners[1] + (rest - i - j) * face.corners[2];
       int polar = 0;
       for (int g0 = 0; g0 <= order; ++g0)
         for (int g1 = 0; g0 + g1 <= order; ++g1)
@@ -110,49 +140,52 @@ std::string plane_of(const Face& face) {
   return std::to_string(n.x) + std::to_string(n.y) + std::to_string(n.z);
 }
 
-TEST(Bcc7Net, JoinsC3AcrossTheFacesOfCellsAndC2AcrossTheOthersAndNoSmoother) {
-  // 5 of the 7 directions leave a plane x = 0, 4 leave a plane x = y: so many less 2 derivatives agree.
-  const std::map<std::string, int> smoothness = {{"100", 3}, {"010", 3}, {"001", 3},
-                                                 {"110", 2}, {"101", 2}, {"011", 2}};
+TEST_P(Net, JoinsAsSmoothlyAsTheDirectionsThatLeaveAKnotPlaneSayAndNoSmoother) {
+  const NetOf& spline = GetParam();
   std::map<std::string, int> faces, broken;
   for (const Face& face : inner_faces(tetrahedra(4))) {
     const std::string plane = plane_of(face);
-    ASSERT_TRUE(smoothness.count(plane)) << plane;
-    for (int order = 0; order <= smoothness.at(plane); ++order)
-      ASSERT_TRUE(joins(face, order)) << plane << " order " << order;
+    const int smoothness = std::count(plane.begin(), plane.end(), '1') == 1 ? spline.across_cells : spline.inside_cells;
+    for (int order = 0; order <= smoothness; ++order) ASSERT_TRUE(joins(spline, face, order)) << plane << " order " << order;
     ++faces[plane];
-    broken[plane] += !joins(face, smoothness.at(plane) + 1);
+    if (smoothness < spline.degree) broken[plane] += !joins(spline, face, smoothness + 1);
   }
-  for (const auto& [plane, order] : smoothness) {
+  for (const std::string plane : {"100", "010", "001", "110", "101", "011"}) {
     EXPECT_GT(faces[plane], 100) << plane;
-    EXPECT_GT(broken[plane], 0) << plane;
+    const bool cell = std::count(plane.begin(), plane.end(), '1') == 1;
+    EXPECT_EQ(broken[plane] > 0, !cell || spline.across_cells < spline.degree) << plane;
   }
 }
 
-TEST(Bcc7Net, HoldsAPartitionOfUnityAtEveryQuarterPoint) {
-  for (int x = 0; x < 8; ++x)
-    for (int y = 0; y < 8; ++y)
-      for (int z = 0; z < 8; ++z) {
+TEST_P(Net, HoldsAPartitionOfUnityAtEveryPointOfItsGrid) {
+  const NetOf& spline = GetParam();
+  const int n = spline.degree;
+  for (int x = 0; x < 2 * n; ++x)
+    for (int y = 0; y < 2 * n; ++y)
+      for (int z = 0; z < 2 * n; ++z) {
         int sum = 0;
-        for (int i = -4; i <= 4; ++i)
-          for (int j = -4; j <= 4; ++j)
-            for (int k = -4; k <= 4; ++k)
-              if ((i - j) % 2 == 0 && (j - k) % 2 == 0) sum += bcc7_net(x - 4 * i, y - 4 * j, z - 4 * k);
-        EXPECT_EQ(sum, kBcc7NetDenominator);
+        for (int i = -5; i <= 5; ++i)
+          for (int j = -5; j <= 5; ++j)
+            for (int k = -5; k <= 5; ++k)
+              if ((i - j) % 2 == 0 && (j - k) % 2 == 0) sum += spline.at(x - n * i, y - n * j, z - n * k);
+        EXPECT_EQ(sum, spline.denominator);
       }
 }
 
-TEST(Bcc7Net, Has115PositiveOrbitsWithTheKnownValuesAmongThem) {
-  EXPECT_EQ(std::size(kBcc7NetOrbits), 115u);
-  for (const Bcc7NetOrbit& q : kBcc7NetOrbits) {
+TEST_P(Net, HasItsPositiveOrbitsWithTheKnownValueAtTheOrigin) {
+  const NetOf& spline = GetParam();
+  EXPECT_EQ(spline.orbits.size(), spline.orbit_count);
+  for (const NetOrbit& q : spline.orbits) {
     EXPECT_GT(q.numerator, 0);
     EXPECT_TRUE(q.i >= q.j && q.j >= q.k && q.k >= 0);
-    EXPECT_EQ(bcc7_net(-q.k, q.i, -q.j), q.numerator);
+    EXPECT_EQ(spline.at(-q.k, q.i, -q.j), q.numerator);
   }
-  EXPECT_EQ(bcc7_net(0, 0, 0), 144);
-  EXPECT_EQ(bcc7_net(kBcc7NetReach + 1, 0, 0), 0);
-  EXPECT_EQ(bcc7_net(100, -100, 100), 0);
+  EXPECT_EQ(spline.at(0, 0, 0), spline.at_origin);
+  EXPECT_EQ(spline.at(spline.reach + 1, 0, 0), 0);
+  EXPECT_EQ(spline.at(100, -100, 100), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, Net, testing::ValuesIn(kNets), [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace quincunx

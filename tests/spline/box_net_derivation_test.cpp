@@ -1,5 +1,5 @@
 // What is derived, derived again.
-#include "spline/bcc7_derivation.h"
+#include "spline/box_net_derivation.h"
 
 #include <gtest/gtest.h>
 
@@ -26,15 +26,19 @@ void expect_same(const std::string& derived, const std::string& path) {
   const auto [a, b] = std::mismatch(derived.begin(), derived.end(), file.begin(), file.end());
   if (a == derived.end() && b == file.end()) return;
   const auto line = 1 + std::count(derived.begin(), a, '\n');
-  ADD_FAILURE() << path << " differs from what is derived in line " << line << "; build the target derive_bcc7";
+  ADD_FAILURE() << path << " differs from what is derived in line " << line << "; build the target derive_box_splines";
 }
 
-TEST(Bcc7Derivation, MakesTheFilesInTheTreeAgainByteForByte) {
-  const auto net = derive_bcc7_net();
-  EXPECT_EQ(net.size(), 115u);
-  expect_same(bcc7_net_header(net), "spline/bcc7_net.h");
-  expect_same(bcc7_tables_glsl(net), "shaders/bcc7_tables.glsl");
+class Derivation : public testing::TestWithParam<DerivedSpline> {};
+
+TEST_P(Derivation, MakesTheFilesInTheTreeAgainByteForByte) {
+  const DerivedSpline& spline = GetParam();
+  const ExactNet net = derive_net(spline);
+  expect_same(net_header(spline, net), "spline/" + spline.name + "_net.h");
+  expect_same(piece_tables_glsl(spline, net), "shaders/" + spline.name + "_tables.glsl");
 }
+
+INSTANTIATE_TEST_SUITE_P(List, Derivation, testing::ValuesIn(derived_splines()), [](const auto& instance) { return instance.param.name; });
 
 RationalPoint rational(const glm::dvec3& x) { return {mpq_class(x.x), mpq_class(x.y), mpq_class(x.z)}; }
 

@@ -1,0 +1,7 @@
+// The quintic four-direction box spline, each direction twice, on the BCC lattice (twin of spline/bcc8.cpp).
+#define COEFFICIENT(number) coefficient(number)
+#define PIECE_FLOAT precise real
+#include "bcc8_tables.glsl"
+#define SPLINE_DEGREE 5
+#define SPLINE_RESTRICT(b, a, d) PIECE_RESTRICT(b[0], b[1], b[2], b[3], b[4], b[5], a.x, a.y, a.z, d.x, d.y, d.z)
+#include "kuhn.glsl"
