@@ -5,6 +5,7 @@
 #define SPLINE_DEGREE 9
 const real SPLINE_SCALE = 216.0;
 #include "cartesian.glsl"
+#include "one_piece.glsl"
 
 // Four samples along x, from -1 on, in the row (j,k) of the 4 x 4 x 4 that reach the cell.
 rvec4 sample_row(SplineCell cell, int j, int k) {

@@ -6,6 +6,7 @@
 #include "spline/bcc7.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
+#include "spline/triquadratic.h"
 
 namespace quincunx {
 namespace {
@@ -24,6 +25,7 @@ std::unique_ptr<Spline> make() {
 constexpr Row kSplines[] = {
     {"bcc7", make<Bcc7>},
     {"trilinear", make<Trilinear>},
+    {"triquadratic", make<Triquadratic>},
     {"tricubic", make<Tricubic>},
 };
 

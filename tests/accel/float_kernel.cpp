@@ -63,6 +63,55 @@ class Linear final : public Cube {
   }
 };
 
+/// One of the eight pieces of a cell. Weights twice too large, so the values are divided by 8 at the end.
+class Quadratic final : public Cube {
+ public:
+  Quadratic(const Coefficients<float>& c, const glm::ivec3& cell, const glm::dvec3& u)
+      : Cube(c, cell), low_(cell), above_(glm::greaterThanEqual(u, low_ + 0.5)) {}
+  glm::dvec3 vertex(int n) const override { return low_ + 0.5 * glm::dvec3(above_) + 0.5 * glm::dvec3(n & 1, n >> 1 & 1, n >> 2 & 1); }
+  float value(const glm::dvec3& u) const override {
+    const glm::vec3 t = piece(u);
+    const Weights x = at(t.x), y = at(t.y), z = at(t.z);
+    float sum = 0.0f;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j) sum += z[k] * (y[j] * ((x[0] * reached(0, j, k) + x[1] * reached(1, j, k)) + x[2] * reached(2, j, k)));
+    return sum * (1.0f / 8.0f);
+  }
+  std::vector<float> bernstein(const glm::dvec3& from, const glm::dvec3& to) const override {
+    const glm::vec3 p = piece(from), q = piece(to);
+    const auto x = along(p.x, q.x), y = along(p.y, q.y), z = along(p.z, q.z);
+    std::vector<float> sum(7);
+    for (int k = 0; k < 3; ++k) {
+      float plane[5] = {};
+      for (int j = 0; j < 3; ++j)
+        for (int m = 0; m < 3; ++m) {
+          float row = 0.0f;
+          for (int i = 0; i < 3; ++i) row += x[i][m] * reached(i, j, k);
+          for (int n = 0; n < 3; ++n) plane[m + n] += row * y[j][n];
+        }
+      for (int m = 0; m < 5; ++m)
+        for (int n = 0; n < 3; ++n) sum[std::size_t(m + n)] += plane[m] * z[k][n];
+    }
+    const float binomials[7] = {1, 6, 15, 20, 15, 6, 1};
+    for (int m = 0; m < 7; ++m) sum[std::size_t(m)] *= 1.0f / 8.0f / binomials[m];
+    return sum;
+  }
+
+ private:
+  using Weights = std::array<float, 3>;
+  glm::vec3 piece(const glm::dvec3& u) const { return own(u) + glm::mix(glm::vec3(0.5f), glm::vec3(-0.5f), above_); }
+  float reached(int i, int j, int k) const { return sample(i - !above_.x, j - !above_.y, k - !above_.z); }
+  static Weights at(float t) { return {(1.0f - t) * (1.0f - t), 1.0f + 2.0f * (t * (1.0f - t)), t * t}; }
+  /// Polar forms of the weights at (p,p), (p,q), (q,q), times 1, 2, 1.
+  static std::array<Weights, 3> along(float p, float q) {
+    const float r = 1.0f - p, s = 1.0f - q;
+    return {Weights{r * r, 2.0f * (r * s), s * s}, {1.0f + 2.0f * (p * r), 2.0f + 2.0f * (p * s + q * r), 1.0f + 2.0f * (q * s)},
+            {p * p, 2.0f * (p * q), q * q}};
+  }
+  glm::dvec3 low_;
+  glm::bvec3 above_;
+};
+
 /// Weights 6 times too large, so the values are divided by 216 at the end.
 class Cubic final : public Cube {
  public:
@@ -125,6 +174,7 @@ std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficien
                                           const glm::dvec3& u) {
   if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
   if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
+  if (spline.name() == "triquadratic") return std::make_unique<Quadratic>(c, cell, u);
   if (spline.name() == "tricubic") return std::make_unique<Cubic>(c, cell);
   throw std::logic_error("no kernel in floats for spline " + std::string(spline.name()));
 }

@@ -194,7 +194,7 @@ TEST_P(DeviceSplineTest, RefinesARootByOneNewtonStepAndGivesTheGradientThere) {
   EXPECT_GT(checked, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "trilinear", "tricubic"),
+INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "trilinear", "triquadratic", "tricubic"),
                          [](const auto& name) { return std::string(name.param); });
 
 }  // namespace

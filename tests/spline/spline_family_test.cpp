@@ -20,11 +20,11 @@ double bcc7_gauge(const glm::dvec3& x) {
   return std::max(largest / 3.0, (a.x + a.y + a.z - least) / 4.0);
 }
 
-/// Cubes of half the edge Reach.
-template <int Reach>
+/// Cubes of half the edge TwiceReach / 2.
+template <int TwiceReach>
 double cube_gauge(const glm::dvec3& x) {
   const glm::dvec3 a = glm::abs(x);
-  return std::max({a.x, a.y, a.z}) / Reach;
+  return 2.0 * std::max({a.x, a.y, a.z}) / TwiceReach;
 }
 
 enum class Cells { one_piece, cut };
@@ -41,8 +41,9 @@ struct Expected {
 };
 constexpr Expected kExpected[] = {
     {"bcc7", bcc7_gauge, 3.0, 3, 1, Cells::cut, Gradient::continuous},
-    {"trilinear", cube_gauge<1>, 1.0, 1, 1, Cells::one_piece, Gradient::jumps},
-    {"tricubic", cube_gauge<2>, 2.0, 3, 1, Cells::one_piece, Gradient::continuous},
+    {"trilinear", cube_gauge<2>, 1.0, 1, 1, Cells::one_piece, Gradient::jumps},
+    {"triquadratic", cube_gauge<3>, 1.5, 2, 1, Cells::cut, Gradient::continuous},
+    {"tricubic", cube_gauge<4>, 2.0, 3, 1, Cells::one_piece, Gradient::continuous},
 };
 
 class SplineFamily : public testing::TestWithParam<std::string_view> {
@@ -274,11 +275,14 @@ TEST_P(SplineFamily, IsOnePolynomialBetweenSplitsWhichTheSegmentHolds) {
 }
 
 TEST_P(SplineFamily, SplitsKeepOutOfTheEndsAndOfWhatTheVectorHeld) {
-  // The diagonal of cell (0,0,0) lies in all knot planes inside it; a parallel ray crosses none of them.
+  // The diagonal of cell (0,0,0) lies in all knot planes of bcc7 inside it, and meets those of triquadratic in the middle alone; a parallel ray
+  // crosses none of them as far as it goes here.
   std::vector<double> t = {7.0};
-  spline->split({0, 0, 0}, {0.1, 0.2, 0.3}, {1.0, 1.0, 1.0}, 0.0, 0.7, t);
+  spline->split({0, 0, 0}, {0.1, 0.2, 0.3}, {1.0, 1.0, 1.0}, 0.0, 0.15, t);
   EXPECT_THAT(t, testing::ElementsAre(7.0));
-  spline->split({0, 0, 0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 0.0, 1.0, t);
+  spline->split({0, 0, 0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 0.0, 0.5, t);
+  EXPECT_THAT(t, testing::ElementsAre(7.0));
+  spline->split({0, 0, 0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 0.5, 1.0, t);
   EXPECT_THAT(t, testing::ElementsAre(7.0));
 }
 
