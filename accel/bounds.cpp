@@ -41,6 +41,7 @@ constexpr Row kRows[] = {
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
     {"triquadratic", 1.0, triquadratic_margin, triquadratic_bounds},
     {"tricubic", 1.0, tricubic_margin, tricubic_bounds},
+    {"catmull-rom", 64.0 / 27.0, catmull_rom_margin, catmull_rom_bounds},
 };
 
 const Row& row_of(const Spline& spline) {

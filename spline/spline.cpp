@@ -4,6 +4,7 @@
 
 #include "lattice/error.h"
 #include "spline/bcc7.h"
+#include "spline/catmull_rom.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
 #include "spline/triquadratic.h"
@@ -27,6 +28,7 @@ constexpr Row kSplines[] = {
     {"trilinear", make<Trilinear>},
     {"triquadratic", make<Triquadratic>},
     {"tricubic", make<Tricubic>},
+    {"catmull-rom", make<CatmullRom>},
 };
 
 }  // namespace

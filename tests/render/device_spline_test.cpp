@@ -1,6 +1,7 @@
 // The splines' GLSL twins against their double-precision classes: value, gradient, Bernstein coefficients, refined roots.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "shaders/shaders.h"
@@ -194,8 +195,12 @@ TEST_P(DeviceSplineTest, RefinesARootByOneNewtonStepAndGivesTheGradientThere) {
   EXPECT_GT(checked, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "trilinear", "triquadratic", "tricubic"),
-                         [](const auto& name) { return std::string(name.param); });
+INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "trilinear", "triquadratic", "tricubic", "catmull-rom"),
+                         [](const auto& instance) {
+                           std::string name(instance.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace quincunx

@@ -60,7 +60,7 @@ TEST(CartesianCoefficients, AreTheDefinitionWithClampedSamplesAndClampedAprons) 
 }
 
 TEST(CartesianCoefficients, HoldTheStencilOfEveryPointAndCellOfTheSmallestDomains) {
-  for (const auto& [name, side] : {std::pair{"trilinear", 0.0}, {"triquadratic", kQuadraticSide}, {"tricubic", kCubicSide}}) {
+  for (const auto& [name, side] : {std::pair{"trilinear", 0.0}, {"triquadratic", kQuadraticSide}, {"tricubic", kCubicSide}, {"catmull-rom", 0.0}}) {
     const auto spline = make_spline(name);
     for (const Extents& extents : kExtents) {
       const Volume volume = random_volume(LatticeKind::cartesian, extents, 2);
