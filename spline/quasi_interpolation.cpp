@@ -84,9 +84,7 @@ Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int 
 template <class T>
 Coefficients<T> axis_coefficients(const Volume& volume, LatticeKind lattice, const AxisMask& mask, int apron, std::string_view spline,
                                   const ValueUnit& unit, const Progress& progress) {
-  // The one cell of an axis of one sample reaches as far beyond it as a cell beyond the last one would.
-  const Extents& n = volume.extents;
-  const int wide = lattice == LatticeKind::cartesian && (n.x == 1 || n.y == 1 || n.z == 1) ? apron + 1 : apron;
+  const int wide = lattice == LatticeKind::cartesian ? cartesian_apron(volume.extents, apron) : apron;
   const auto row = [&](const auto& source, int coset, std::int64_t j, std::int64_t k, T* out, double* scratch) {
     if (mask.side != 0.0) return convolve_row(source, mask, unit, coset, j, k, out, scratch);
     const auto* from = source.row(coset, j, k);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "spline/interpolation.h"
 #include "spline/quasi_interpolation.h"
 #include "spline/tensor_piece.h"
 
@@ -13,6 +14,7 @@ namespace quincunx {
 ///   kName, kShader   its name and its twin
 ///   kFilters         Spline::filters()
 ///   kFir             the mask of Prefilter::fir
+///   kInterpolation   that of Prefilter::iir, where there is one
 /// kTaps^3 samples reach a piece, which has degree 3 (kTaps - 1) along a ray. Where kTaps is even, knots are at the samples and a cell
 /// is one piece; where it is odd, they are in the middle between samples, and x, y, z = 1/2 cut a cell into eight.
 template <class Basis>
@@ -55,7 +57,10 @@ class TensorSpline final : public Spline {
 
   template <class T>
   Coefficients<T> made(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
-    const AxisMask& mask = filter(prefilter).kind == Prefilter::none ? kIdentityAxisMask : Basis::kFir;
+    const Prefilter kind = filter(prefilter).kind;
+    if constexpr (requires { Basis::kInterpolation; })
+      if (kind == Prefilter::iir) return interpolating_coefficients<T>(volume, Basis::kInterpolation, apron(), name(), unit, progress);
+    const AxisMask& mask = kind == Prefilter::none ? kIdentityAxisMask : Basis::kFir;
     return axis_coefficients<T>(volume, lattice(), mask, apron(), name(), unit, progress);
   }
 };

@@ -17,7 +17,10 @@ struct CubicBasis {
                                                           {1.0 / 6.0, 2.0 / 6.0, 4.0 / 6.0, 4.0 / 6.0},
                                                           {0.0, 0.0, 0.0, 1.0 / 6.0}};
   static constexpr AxisMask kFir = kCubicAxisMask;
-  static constexpr Spline::Filter kFilters[] = {{Spline::Prefilter::fir, 1, 125.0 / 27.0}, Spline::kNoFilter};
+  static constexpr InterpolationMask kInterpolation = kCubicInterpolation;
+  static constexpr Spline::Filter kFilters[] = {{Spline::Prefilter::fir, 1, 125.0 / 27.0},
+                                                {Spline::Prefilter::iir, kInterpolation.reach, 27.0},
+                                                Spline::kNoFilter};
 
   static AxisJet at(double x) {
     const double a = std::abs(x), sign = x < 0.0 ? -1.0 : 1.0;
@@ -32,7 +35,7 @@ struct CubicBasis {
 };
 
 /// The product of centred cubic B-splines along the axes: C2, 64 samples reach any cell, of degree 9 along a ray. With
-/// quasi-interpolation (-1/6, 4/3, -1/6 along each axis) of approximation order 4, without of order 2.
+/// quasi-interpolation (-1/6, 4/3, -1/6 along each axis) of approximation order 4, interpolating (iir) of the same, without of order 2.
 using Tricubic = TensorSpline<CubicBasis>;
 
 }  // namespace quincunx

@@ -14,7 +14,10 @@ struct QuadraticBasis {
   static constexpr double kFirst = -0.5;
   static constexpr std::array<double, 3> kBernstein[3] = {{0.5, 0.0, 0.0}, {0.5, 1.0, 0.5}, {0.0, 0.0, 0.5}};
   static constexpr AxisMask kFir = kQuadraticAxisMask;
-  static constexpr Spline::Filter kFilters[] = {{Spline::Prefilter::fir, 1, 27.0 / 8.0}, Spline::kNoFilter};
+  static constexpr InterpolationMask kInterpolation = kQuadraticInterpolation;
+  static constexpr Spline::Filter kFilters[] = {{Spline::Prefilter::fir, 1, 27.0 / 8.0},
+                                                {Spline::Prefilter::iir, kInterpolation.reach, 8.0},
+                                                Spline::kNoFilter};
 
   static AxisJet at(double x) {
     const double a = std::abs(x), sign = x < 0.0 ? -1.0 : 1.0;
@@ -28,7 +31,7 @@ struct QuadraticBasis {
 };
 
 /// The product of centred quadratic B-splines along the axes: C1, 27 samples reach any of a cell's eight pieces, of degree 6 along a ray.
-/// With quasi-interpolation (-1/8, 5/4, -1/8 along each axis) of approximation order 3, without of order 2.
+/// With quasi-interpolation (-1/8, 5/4, -1/8 along each axis) of approximation order 3, interpolating (iir) of the same, without of order 2.
 using Triquadratic = TensorSpline<QuadraticBasis>;
 
 }  // namespace quincunx

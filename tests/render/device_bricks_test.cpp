@@ -145,7 +145,11 @@ TEST_P(EveryLook, IsTheSameThroughAPool) {
   EXPECT_GT(evictions, 30u) << "pools were too small";
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::ValuesIn(spline_names()), [](const auto& spline) { return std::string(spline.param); });
+INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::ValuesIn(spline_names()), [](const auto& spline) {
+  std::string name(spline.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST_F(DeviceBricksTest, EveryStructureWithBlocksOfEverySizeShowsTheSame) {
   const Volume volume = bumps(LatticeKind::cartesian, {19, 22, 17});
