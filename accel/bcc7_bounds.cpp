@@ -113,7 +113,7 @@ void bcc7_bounds(const Coefficients<float>& c, const BoundsScale& scale, Surroun
   }
   const std::int64_t tiles_y = (bounds.cells.y + kTile - 1) / kTile, tiles_z = (bounds.cells.z + kTile - 1) / kTile;
   tbb::enumerable_thread_specific<TileWork> works([&] {
-    return TileWork{net.workspace(), {}, std::vector<RowRange>(kTile * kTile, net.empty_range())};
+    return TileWork{net.workspace(), Magnitudes{}, std::vector<RowRange>(kTile * kTile, net.empty_range())};
   });
   for_each_tile(tiles_y * tiles_z, progress, [&](std::int64_t t) {
     Tile(t % tiles_y * kTile, t / tiles_y * kTile, bounds.cells).compute(task, works.local(), bounds);

@@ -21,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "accel/bcc12_bounds.h"
 #include "accel/bcc7_bounds.h"
 #include "accel/tensor_bounds.h"
 
@@ -38,6 +39,7 @@ struct Row {
 /// The one list of splines that have bounds.
 constexpr Row kRows[] = {
     {"bcc7", 1.0, bcc7_margin, bcc7_bounds},
+    {"bcc12", 1.0, bcc12_margin, bcc12_bounds},
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
     {"triquadratic", 1.0, triquadratic_margin, triquadratic_bounds},
     {"tricubic", 1.0, tricubic_margin, tricubic_bounds},

@@ -49,9 +49,9 @@ Verdict& Verdict::operator+=(const Verdict& other) {
 }
 
 double local_magnitude(const Coefficients<double>& c, const glm::dvec3& u, double offset) {
-  // A cell X and its neighbours are reached from X - 3 to X + 4, on the Cartesian lattice from X - 2 to X + 3.
-  const bool bcc = c.lattice == LatticeKind::bcc;
-  const int below = bcc ? 3 : 2, above = bcc ? 4 : 3, step = lattice_step(c.lattice);
+  // A cell X and its neighbours are reached from X - 3 to X + 4, of bcc12, whose apron is wider, from X - 4 to X + 5, on the Cartesian lattice
+  // from X - 2 to X + 3.
+  const int below = c.lattice == LatticeKind::bcc ? 2 + c.apron : 2, above = below + 1, step = lattice_step(c.lattice);
   double largest = 0.0;
   for (int coset = 0; coset < coset_count(c.lattice); ++coset) {
     glm::i64vec3 low, high;

@@ -1,10 +1,11 @@
-// Splines that are products along the axes of cubics from 4 samples each: on the Cartesian lattice, or sums of several such, each on a coset's
-// grid, with the same weights. Before this file is included there are SplineCell, AxisOrder, SPLINE_SCALE and, for sums,
-//   CUBES                        how many cubes of 4 x 4 x 4 samples reach a cell, and CUBE_STEP, their own coordinates per lattice coordinate
+// Splines that are products along the axes of cubics from 4 samples each: on the Cartesian lattice, or the sum of two such, one on the grid of
+// each coset, with the same weights. Before this file is included there are SplineCell, AxisOrder, SPLINE_SCALE and, for sums,
+//   CUBES                        2: that many cubes of 4 x 4 x 4 samples reach a cell, and CUBE_STEP, their own coordinates per lattice coordinate
 //   cube_first(cell, cube)       the number of a cube's first sample
 //   cube_point(cell, cube, u)    the cube's own coordinates of u, in [0,1]^3 between its 8 samples in the middle
-// Behind it follow weights(p, q), point_weights(x) and point_slopes(x): how much the samples at -1, 0, 1, 2 weigh, the cube root of SPLINE_SCALE /
-// CUBES times too large, so that divisions never happen.
+// Behind it follow weights(p, q), point_weights(x) and point_slopes(x): how much the samples at -1, 0, 1, 2 weigh, the cube root of
+// SPLINE_SCALE / CUBES times too large, so that divisions never happen.
+// No loop goes over cubes: Mesa does not unroll one of so large a body, not even over one cube.
 #define SPLINE_DEGREE 9
 
 #ifndef CUBES
@@ -87,7 +88,10 @@ void add_cube(SplineCell cell, int cube, rvec3 a, rvec3 e, inout real sum[SPLINE
 void spline_restrict(SplineCell cell, AxisOrder order, rvec3 a, rvec3 d, real offset, out real b[SPLINE_DEGREE + 1]) {
   rvec3 e = a + d;
   for (int i = 0; i <= SPLINE_DEGREE; ++i) b[i] = 0.0;
-  for (int cube = 0; cube < CUBES; ++cube) add_cube(cell, cube, a, e, b);
+  add_cube(cell, 0, a, e, b);
+#if CUBES == 2
+  add_cube(cell, 1, a, e, b);
+#endif
   const real inverse_binomial[SPLINE_DEGREE + 1] =
       real[10](1.0, real(1.0) / 9.0, real(1.0) / 36.0, real(1.0) / 84.0, real(1.0) / 126.0, real(1.0) / 126.0, real(1.0) / 84.0, real(1.0) / 36.0, real(1.0) / 9.0, 1.0);
   for (int i = 0; i <= SPLINE_DEGREE; ++i) {
@@ -124,18 +128,15 @@ void samples_jet(Samples s, rvec3 u, real offset, out real value, out rvec3 grad
   gradient = rvec3(weighted(wz, fx), weighted(wz, fy), weighted(dz, f));
 }
 
-#if CUBES > 1
+#if CUBES == 2
 // SPLINE_SCALE times the value at u, less `offset`, and the gradient of lattice coordinates.
 void cell_jet(SplineCell cell, rvec3 u, real offset, out real value, out rvec3 gradient) {
-  value = -offset;
-  gradient = rvec3(0.0);
-  for (int cube = 0; cube < CUBES; ++cube) {
-    real more;
-    rvec3 slope;
-    samples_jet(cube_samples(cell, cube), cube_point(cell, cube, u), 0.0, more, slope);
-    value += more;
-    gradient += CUBE_STEP * slope;
-  }
+  real more;
+  rvec3 slope;
+  samples_jet(cube_samples(cell, 0), cube_point(cell, 0, u), 0.0, value, gradient);
+  samples_jet(cube_samples(cell, 1), cube_point(cell, 1, u), 0.0, more, slope);
+  value = (value + more) - offset;
+  gradient = CUBE_STEP * (gradient + slope);
 }
 #endif
 
@@ -153,9 +154,7 @@ real spline_value(SplineCell cell, rvec3 u, real offset) {
 #if CUBES == 1
   return cube_value(cell, 0, u) - offset;
 #else
-  real value = -offset;
-  for (int cube = 0; cube < CUBES; ++cube) value += cube_value(cell, cube, u);
-  return value;
+  return (cube_value(cell, 0, u) + cube_value(cell, 1, u)) - offset;
 #endif
 }
 

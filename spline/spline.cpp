@@ -3,6 +3,7 @@
 #include <string>
 
 #include "lattice/error.h"
+#include "spline/bcc12.h"
 #include "spline/bcc7.h"
 #include "spline/catmull_rom.h"
 #include "spline/tricubic.h"
@@ -25,6 +26,7 @@ std::unique_ptr<Spline> make() {
 
 constexpr Row kSplines[] = {
     {"bcc7", make<Bcc7>},
+    {"bcc12", make<Bcc12>},
     {"trilinear", make<Trilinear>},
     {"triquadratic", make<Triquadratic>},
     {"tricubic", make<Tricubic>},

@@ -10,7 +10,7 @@ Coefficients<float> make_coefficients(const Extents& extents, const std::functio
   Coefficients<float> c;
   c.lattice = lattice;
   c.extents = extents;
-  c.apron = lattice == LatticeKind::bcc ? 1 : 2;
+  c.apron = 2;
   c.data.resize(std::size_t(coset_count(lattice) * c.stride_coset()));
   const glm::i64vec3 low(-c.apron), high = extents + std::int64_t(c.apron);
   const auto fill = [&](bool inside) {

@@ -198,11 +198,29 @@ class Cubic final : public Cube {
   }
 };
 
+/// bcc12: the cubes of the two cosets, halved and added.
+class TwoCubes final : public FloatKernel {
+ public:
+  TwoCubes(const Coefficients<float>& c, const glm::ivec3& cell) : even_(c, cell, 0), odd_(c, cell, 1) {}
+  float value(const glm::dvec3& u) const override { return 0.5f * (even_.value(u) + odd_.value(u)); }
+  std::vector<float> bernstein(const glm::dvec3& a, const glm::dvec3& b) const override {
+    std::vector<float> sum = even_.bernstein(a, b);
+    const std::vector<float> odd = odd_.bernstein(a, b);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = 0.5f * (sum[i] + odd[i]);
+    return sum;
+  }
+  glm::dvec3 vertex(int n) const override { return even_.vertex(n); }
+
+ private:
+  Cubic<BSpline> even_, odd_;
+};
+
 }  // namespace
 
 std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficients<float>& c, const glm::ivec3& cell,
                                           const glm::dvec3& u) {
   if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
+  if (spline.name() == "bcc12") return std::make_unique<TwoCubes>(c, cell);
   if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
   if (spline.name() == "triquadratic") return std::make_unique<Quadratic>(c, cell, u);
   if (spline.name() == "tricubic") return std::make_unique<Cubic<BSpline>>(c, cell);

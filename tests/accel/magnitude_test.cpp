@@ -30,13 +30,14 @@ float largest(const Coefficients<float>& c, const glm::i64vec3& low, const glm::
 TEST(Magnitudes, CoverTheSamplesOfACellAndItsNeighboursAndLittleMore) {
   for (const CoefficientSet& set : coefficient_sets()) {
     const glm::i64vec3 cells = domain_max(set.c.lattice, set.c.extents);
-    Magnitudes magnitudes;
+    Magnitudes magnitudes, wide(3);
     // In boxes of rows, as tiles ask for them.
     for (std::int64_t k0 = 0; k0 < set.c.extents.z; k0 += 4)
       for (std::int64_t j0 = 0; j0 < set.c.extents.y; j0 += 4) {
         const std::int64_t count_j = std::min<std::int64_t>(4, set.c.extents.y - j0),
                            count_k = std::min<std::int64_t>(4, set.c.extents.z - k0);
         magnitudes.compute(set.c, j0, count_j, k0, count_k);
+        wide.compute(set.c, j0, count_j, k0, count_k);
         for (std::int64_t k = k0; k < k0 + count_k; ++k)
           for (std::int64_t j = j0; j < j0 + count_j; ++j)
             for (std::int64_t i = 0; i < set.c.extents.x; ++i) {
@@ -45,6 +46,8 @@ TEST(Magnitudes, CoverTheSamplesOfACellAndItsNeighboursAndLittleMore) {
               const float m = magnitudes.row(j, k)[i];
               ASSERT_GE(m, largest(set.c, even - 3L, last + 4L)) << set.name;
               ASSERT_LE(m, largest(set.c, even - 4L, even + 5L)) << set.name;
+              ASSERT_GE(wide.row(j, k)[i], largest(set.c, even - 4L, last + 5L)) << set.name;
+              ASSERT_LE(wide.row(j, k)[i], largest(set.c, even - 6L, even + 7L)) << set.name;
             }
       }
   }

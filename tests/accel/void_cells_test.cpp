@@ -81,8 +81,8 @@ TEST(VoidCells, AreThoseInWhichSamplesThatAreNotFiniteHaveAWeight) {
 }
 
 TEST(VoidCells, AreAsManyAboutOneSampleAsItsWeightReaches) {
-  // 8 and 64 cells about a point, the outer ones of triquadratic by half; of bcc7, whose cells 40 samples reach, with a sample for 4 cells: 160.
-  for (const auto& [name, expected] : {std::pair{"trilinear", 8u}, {"triquadratic", 64u}, {"tricubic", 64u}, {"catmull-rom", 64u}, {"bcc7", 160u}}) {
+  // 8 and 64 cells about a point, the outer ones of triquadratic by half; of bcc7, whose cells 40 samples reach, with a sample for 4 cells: 160; of bcc12, 128 samples: 512.
+  for (const auto& [name, expected] : {std::pair{"trilinear", 8u}, {"triquadratic", 64u}, {"tricubic", 64u}, {"catmull-rom", 64u}, {"bcc7", 160u}, {"bcc12", 512u}}) {
     const std::unique_ptr<Spline> spline = make_spline(name);
     Volume volume = holed_noise(spline->lattice(), {9, 9, 9}, 0.0, 1);
     std::get<std::vector<float>>(volume.samples)[4 * 81 + 4 * 9 + 4] = kNan;

@@ -195,7 +195,7 @@ TEST_P(DeviceSplineTest, RefinesARootByOneNewtonStepAndGivesTheGradientThere) {
   EXPECT_GT(checked, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "trilinear", "triquadratic", "tricubic", "catmull-rom"),
+INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::Values("bcc7", "bcc12", "trilinear", "triquadratic", "tricubic", "catmull-rom"),
                          [](const auto& instance) {
                            std::string name(instance.param);
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -37,7 +37,7 @@ struct Order {
   int coarsest;  // cells of the unit cube's edge
 };
 // Of triquadratic with its prefilter the error of the fourth order, which falls faster, is the larger one on coarse grids.
-constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0, 16}, {"trilinear", 2.0, 2.0, 16}, {"triquadratic", 3.0, 2.0, 48}, {"tricubic", 4.0, 2.0, 16}, {"catmull-rom", 3.0, 3.0, 16}};
+constexpr Order kOrders[] = {{"bcc7", 4.0, 2.0, 16}, {"bcc12", 4.0, 2.0, 16}, {"trilinear", 2.0, 2.0, 16}, {"triquadratic", 3.0, 2.0, 48}, {"tricubic", 4.0, 2.0, 16}, {"catmull-rom", 3.0, 3.0, 16}};
 
 TEST(Convergence, HasItsApproximationOrderWithPrefilterAndWithout) {
   ASSERT_EQ(std::size(kOrders), spline_names().size());

@@ -50,6 +50,7 @@ struct Expected {
 };
 constexpr Expected kExpected[] = {
     {"bcc7", bcc7_gauge, 3.0, 3, 1, Cells::cut, Gradient::continuous, everywhere},
+    {"bcc12", cube_gauge<8>, 4.0, 3, 1, Cells::one_piece, Gradient::continuous, everywhere},
     {"trilinear", cube_gauge<2>, 1.0, 1, 1, Cells::one_piece, Gradient::jumps, everywhere},
     {"triquadratic", cube_gauge<3>, 1.5, 2, 1, Cells::cut, Gradient::continuous, everywhere},
     {"tricubic", cube_gauge<4>, 2.0, 3, 1, Cells::one_piece, Gradient::continuous, everywhere},
