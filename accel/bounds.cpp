@@ -22,6 +22,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "accel/bcc12_bounds.h"
 #include "accel/cwlb_bounds.h"
 #include "accel/kuhn_bounds.h"
 #include "accel/tensor_bounds.h"
@@ -42,9 +43,12 @@ constexpr Row kRows[] = {
     {"bcc4", 1.0, bcc4_margin, bcc4_bounds},
     {"bcc7", 1.0, bcc7_margin, bcc7_bounds},
     {"bcc8", 1.0, bcc8_margin, bcc8_bounds},
+    {"bcc12", 1.0, bcc12_margin, bcc12_bounds},
     {"cwlb", 1.0, cwlb_margin, cwlb_bounds},
     {"trilinear", 1.0, trilinear_margin, trilinear_bounds},
+    {"triquadratic", 1.0, triquadratic_margin, triquadratic_bounds},
     {"tricubic", 1.0, tricubic_margin, tricubic_bounds},
+    {"catmull-rom", 64.0 / 27.0, catmull_rom_margin, catmull_rom_bounds},
 };
 
 const Row& row_of(const Spline& spline) {
@@ -78,14 +82,14 @@ Range coefficient_range(const std::vector<float>& data) {
 }
 
 /// The scale on which value(0) and value(65535) enclose every widened interval of coefficients from `least` to `most`: the net's values
-/// are within net_gain of them, computed within 32 e m, and the margin grows with widths and magnitude.
+/// and widths are within net_gain of them, computed within 32 e m, and the margin grows with widths and magnitude.
 BoundsScale scale_of(const Row& row, double least, double most, const glm::i64vec3& cells) {
   BoundsScale scale;
   scale.least = least, scale.most = most, scale.displacement = displacement(cells);
   const Margin margin = row.margin(scale.displacement);
   const double m = std::max(std::abs(least), std::abs(most)), rounding = 64.0 * kBoundsEpsilon * m;
   const double beyond = 0.5 * (row.net_gain - 1.0) * (most - least);
-  const double around = beyond + (margin.per_width + margin.per_near_width) * (most - least + rounding) + margin.per_magnitude * m +
+  const double around = beyond + (row.net_gain * margin.per_width + margin.per_near_width) * (most - least + rounding) + margin.per_magnitude * m +
                         rounding + 2.0 * kBoundsTiny;
   scale.low = least - around;
   scale.step = (most + around - scale.low) / 65535.0;

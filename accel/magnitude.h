@@ -29,7 +29,7 @@ class Magnitudes {
   }
 
  private:
-  std::int64_t width_ = 0, first_j_ = 0, first_k_ = 0, count_j_ = 0;
+  std::int64_t reach_, width_ = 0, first_j_ = 0, first_k_ = 0, count_j_ = 0;
   std::vector<float> rows_, raw_, along_y_;
 };
 

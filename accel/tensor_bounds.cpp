@@ -1,17 +1,26 @@
-// Bounds of the trilinear and the tricubic spline over cells.
+// Bounds of the splines that are products along the axes of a Cartesian lattice, over cells.
 //
-// A cell is one polynomial piece, and its net that of tensor Bernstein coefficients: the 8 samples at its corners; of the
-// tricubic spline 4^3, made along one axis after the other by
+// A cell's net is that of tensor Bernstein coefficients, of its one piece or of its eight: the 8 samples at its corners; of
+// the tricubic spline 4^3, made along one axis after the other by
 //
 //   (c0 + 4 c1 + c2)/6   (2 c1 + c2)/3   (c1 + 2 c2)/3   (c1 + 4 c2 + c3)/6
 //
-// from the 4 coefficients that reach the cell. The last of them is the first of the next cell, so nets are rows of 1 or
-// 3 points a cell. [lo, hi] is the net's range over the cell, w = hi - lo; W is the width of the range of the
+// from the 4 coefficients that reach the cell; of the triquadratic one, whose pieces meet in the cell's middle, 5^3 by
+//
+//   (c0 + 6 c1 + c2)/8   (3 c1 + c2)/4   (c1 + c2)/2   (c1 + 3 c2)/4   (c1 + 6 c2 + c3)/8
+//
+// and of the Catmull-Rom spline 4^3 by
+//
+//   c1   c1 + (c2 - c0)/6   c2 - (c3 - c1)/6   c2.
+//
+// The last of them is the first of the next cell, so nets are rows of 1, 3 or 4 points a cell. [lo, hi] is the net's range over the cell, w = hi - lo; W is the width of the range of the
 // coefficients that reach the cell or one of its 26 neighbours, m the largest |coefficient| among these; e and d as in
 // bounds.cpp. The margins on either side are
 //
-//   trilinear   (1 + 2d)^2 W d              +  256 e m  +  tiny
-//   tricubic    3 w d  +  16 W d^2          +  512 e m  +  tiny
+//   trilinear      (1 + 2d)^2 W d              +  256 e m  +  tiny
+//   triquadratic   4 w d  +   4 W d^2          +  256 e m  +  tiny
+//   tricubic       3 w d  +  16 W d^2          +  512 e m  +  tiny
+//   catmull-rom    3 w d  +  24 W d^2          +  512 e m  +  tiny
 //
 // Position. The ray's place in a cell's own coordinates is wrong by d, and may so be taken inside the neighbour where a
 // value of the common face is meant, or outside of the cell that is evaluated, whose polynomial goes on there. A partial
@@ -22,6 +31,13 @@
 // mixed ones along two, are at most 18 W there and in the neighbours, and half of that times d^2 is the rest of Taylor's
 // formula. Beyond the cell by d polynomials of degree 9 grow by less than (1 + 2d)^9: 16 in place of 9 holds
 // until d = 1/32, which is 87,000 cells along the three axes together.
+// The triquadratic spline is C1, so to first order a displacement across a plane between pieces changes the value as one inside a piece
+// does: partial derivatives are 2 / (1/2) times differences of the net, at most 4 w. Second ones jump, and count as the largest of either
+// side: c0 - 2 c1 + c2 along one axis, and means of differences of differences along two, at most 2 W; half of that, and as much again for
+// polynomials of degree 6 continued by d beyond their piece, is below 4 W d^2.
+// The Catmull-Rom spline is C1 too. Its net weighs samples by up to 4/3 along an axis, absolute values added. Second derivatives, 6 times second
+// differences, weigh them by 2 there: 6 * 2/2 * (4/3)^2 W < 11 W; mixed ones are 9 times differences of differences, by 2 along two axes:
+// 9 * 4/2 * 4/3 W = 24 W. Half of that, and as much again for the polynomials' growth beyond the cell, is 24 W d^2.
 //
 // Evaluation. The kernels (shaders/trilinear.glsl, shaders/tricubic.glsl) subtract an isovalue, whose absolute value may
 // be taken as at most 2 m: beyond, the sign is safe. Each step of linear interpolation a + t (b - a) passes on a mean of
@@ -29,7 +45,9 @@
 // Bernstein coefficient along a segment, six such steps, 3 e m for the isovalue, 15 e m for the mean of three at the end:
 // 60 e m. The tricubic weights of one axis, 6 times too large, are wrong by up to 90 e in 18 where they are Bernstein
 // coefficients: 20 e over the four samples. Three axes make 60 e m, products and sums of 4, 4 and 16 terms 30 e m, scale
-// and isovalue 10 e m: 100 e m. The net here is computed within 16 e m. 256 and 512 hold twice to four times these.
+// and isovalue 10 e m: 100 e m. The triquadratic ones, twice too large, are wrong by up to 8 e in 2: 4 e an axis, and with
+// sums of 3, 3 and 9 terms it is 50 e m. Those of Catmull-Rom, twice too large, are wrong by up to 30 e in 6: 10 e an axis,
+// times (4/3)^2, and sums reach (4/3)^3 m: 150 e m. The net here is computed within 16 e m. 256 and 512 hold twice to five times these.
 #include "accel/tensor_bounds.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -82,6 +100,27 @@ struct Linear {
   }
 };
 
+struct Quadratic {
+  static constexpr std::int64_t kPoints = 4;
+  static constexpr std::int64_t kBefore = 1;
+  static constexpr Point kPointOf[kPoints] = {{-1, {1.0f / 8.0f, 6.0f / 8.0f, 1.0f / 8.0f}},
+                                              {0, {3.0f / 4.0f, 1.0f / 4.0f, 0.0f}},
+                                              {0, {1.0f / 2.0f, 1.0f / 2.0f, 0.0f}},
+                                              {0, {1.0f / 4.0f, 3.0f / 4.0f, 0.0f}}};
+
+  /// v begins one sample before the first cell's lower corner. The middle one of the five lies between its neighbours.
+  static void range(const float* v, std::int64_t n, Ranges& ranges) {
+    Line corner;
+    for (std::int64_t i = 0; i <= n; ++i) corner[i] = 0.125f * (v[i] + v[i + 2]) + 0.75f * v[i + 1];
+    const auto between = [&](std::int64_t i, const auto& pick) {
+      const float a = 0.75f * v[i + 1] + 0.25f * v[i + 2], b = 0.25f * v[i + 1] + 0.75f * v[i + 2];
+      return pick(pick(a, b), pick(corner[i], corner[i + 1]));
+    };
+    for (std::int64_t i = 0; i < n; ++i) ranges.low[i] = between(i, [](float a, float b) { return a < b ? a : b; });
+    for (std::int64_t i = 0; i < n; ++i) ranges.high[i] = between(i, [](float a, float b) { return a > b ? a : b; });
+  }
+};
+
 struct Cubic {
   static constexpr std::int64_t kPoints = 3;
   static constexpr std::int64_t kBefore = 1;
@@ -103,6 +142,23 @@ struct Cubic {
   }
 };
 
+struct CatmullRom {
+  static constexpr std::int64_t kPoints = 3;
+  static constexpr std::int64_t kBefore = 1;
+  static constexpr Point kPointOf[kPoints] = {
+      {0, {1.0f, 0.0f, 0.0f}}, {-1, {-1.0f / 6.0f, 1.0f, 1.0f / 6.0f}}, {0, {1.0f / 6.0f, 1.0f, -1.0f / 6.0f}}};
+
+  /// v begins one sample before the first cell's lower corner.
+  static void range(const float* v, std::int64_t n, Ranges& ranges) {
+    const auto between = [&](std::int64_t i, const auto& pick) {
+      const float a = v[i + 1] + (1.0f / 6.0f) * (v[i + 2] - v[i]), b = v[i + 2] - (1.0f / 6.0f) * (v[i + 3] - v[i + 1]);
+      return pick(pick(a, b), pick(v[i + 1], v[i + 2]));
+    };
+    for (std::int64_t i = 0; i < n; ++i) ranges.low[i] = between(i, [](float a, float b) { return a < b ? a : b; });
+    for (std::int64_t i = 0; i < n; ++i) ranges.high[i] = between(i, [](float a, float b) { return a > b ? a : b; });
+  }
+};
+
 /// to[i] = the combination of three rows, those `stride` floats apart from `from` on. Rows of weight 0 are not read.
 void combine(const Point& point, const float* from, std::int64_t stride, std::int64_t n, float* to) {
   const float *a = from + point.first * stride, *b = a + stride, *c = b + stride;
@@ -111,8 +167,10 @@ void combine(const Point& point, const float* from, std::int64_t stride, std::in
     std::copy_n(a, n, to);
   } else if (r == 0.0f) {
     for (std::int64_t i = 0; i < n; ++i) to[i] = p * a[i] + q * b[i];
-  } else {
+  } else if (p == r) {
     for (std::int64_t i = 0; i < n; ++i) to[i] = p * (a[i] + c[i]) + q * b[i];
+  } else {
+    for (std::int64_t i = 0; i < n; ++i) to[i] = p * a[i] + q * b[i] + r * c[i];
   }
 }
 
@@ -262,16 +320,30 @@ void tensor_bounds(const Coefficients<float>& c, const Margin& margin, const Bou
 
 Margin trilinear_margin(double d) { return {0.0, d * (1.0 + 2.0 * d) * (1.0 + 2.0 * d), 256.0 * kBoundsEpsilon}; }
 
+Margin triquadratic_margin(double d) { return {4.0 * d, 4.0 * d * d, 256.0 * kBoundsEpsilon}; }
+
 Margin tricubic_margin(double d) { return {3.0 * d, 16.0 * d * d, 512.0 * kBoundsEpsilon}; }
+
+Margin catmull_rom_margin(double d) { return {3.0 * d, 24.0 * d * d, 512.0 * kBoundsEpsilon}; }
 
 void trilinear_bounds(const Coefficients<float>& c, const BoundsScale& scale, Surroundings surroundings,
                       const Progress& progress, CellBounds& bounds) {
   tensor_bounds<Linear>(c, trilinear_margin(scale.displacement), scale, surroundings, progress, bounds);
 }
 
+void triquadratic_bounds(const Coefficients<float>& c, const BoundsScale& scale, Surroundings surroundings,
+                         const Progress& progress, CellBounds& bounds) {
+  tensor_bounds<Quadratic>(c, triquadratic_margin(scale.displacement), scale, surroundings, progress, bounds);
+}
+
 void tricubic_bounds(const Coefficients<float>& c, const BoundsScale& scale, Surroundings surroundings,
                      const Progress& progress, CellBounds& bounds) {
   tensor_bounds<Cubic>(c, tricubic_margin(scale.displacement), scale, surroundings, progress, bounds);
+}
+
+void catmull_rom_bounds(const Coefficients<float>& c, const BoundsScale& scale, Surroundings surroundings,
+                        const Progress& progress, CellBounds& bounds) {
+  tensor_bounds<CatmullRom>(c, catmull_rom_margin(scale.displacement), scale, surroundings, progress, bounds);
 }
 
 }  // namespace quincunx

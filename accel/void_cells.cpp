@@ -19,11 +19,11 @@ struct ReachedRow {
   std::int64_t y, z, low, high;
 };
 
-/// Whether the sample at 0 has a weight in the cell with this lower corner. A generator is positive inside its support, whose sides are knot
-/// planes: a piece has a weight everywhere or nowhere, and each piece of a cell holds one of these 4^3 points.
+/// Whether the sample at 0 has a weight in the cell with this lower corner. A generator is 0 on knot planes only, inside its support, whose
+/// sides are such planes: a piece has a weight everywhere or nowhere, and each piece of a cell holds one of these 4^3 points.
 bool reaches(const Spline& spline, const glm::dvec3& corner) {
   for (int n = 0; n < 64; ++n)
-    if (spline.generator(corner + 0.125 + 0.25 * glm::dvec3(n & 3, n >> 2 & 3, n >> 4)).value > 0.0) return true;
+    if (spline.generator(corner + 0.125 + 0.25 * glm::dvec3(n & 3, n >> 2 & 3, n >> 4)).value != 0.0) return true;
   return false;
 }
 

@@ -49,8 +49,8 @@ Verdict& Verdict::operator+=(const Verdict& other) {
 }
 
 double local_magnitude(const Coefficients<double>& c, const glm::dvec3& u, double offset) {
-  // A cell X and its neighbours are reached from X - 3 to X + 4, of bcc8, whose apron is 2, from X - 4 to X + 5, on the Cartesian lattice from
-  // X - 2 to X + 3.
+  // A cell X and its neighbours are reached from X - 3 to X + 4, of bcc8 and bcc12, whose apron is 2, from X - 4 to X + 5, on the Cartesian lattice
+  // from X - 2 to X + 3.
   const bool bcc = c.lattice == LatticeKind::bcc;
   const int below = bcc ? 2 + c.apron : 2, above = below + 1, step = lattice_step(c.lattice);
   double largest = 0.0;

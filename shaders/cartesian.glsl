@@ -1,6 +1,4 @@
-// What splines on the Cartesian lattice share: a cell, the unit cube between eight neighbouring samples, is one polynomial piece.
-#define SPLINE_CUTS 0
-
+// What splines on the Cartesian lattice share: a cell is the unit cube between eight neighbouring samples.
 // A cell and where its samples are.
 struct SplineCell {
   rvec3 even;  // its lowest corner relative to the domain's centre
@@ -21,11 +19,3 @@ rvec3 cell_point(SplineCell c, rvec3 o, rvec3 d, real t) {
   precise rvec3 u = (o - c.even) + t * d;
   return clamp(u, rvec3(0.0), rvec3(1.0));
 }
-
-// The piece: there is one.
-struct AxisOrder {
-  uint code;
-};
-AxisOrder axis_order(rvec3 u) { return AxisOrder(0u); }
-uint order_code(AxisOrder r) { return 0u; }
-AxisOrder coded_order(uint code) { return AxisOrder(0u); }

@@ -2,6 +2,7 @@
 #define SPLINE_DEGREE 3
 const real SPLINE_SCALE = 1.0;
 #include "cartesian.glsl"
+#include "one_piece.glsl"
 
 // The samples of a cell's corners (x,y) = (0,0), (1,0), (0,1), (1,1).
 struct Corners {

@@ -36,6 +36,10 @@ struct SampleRows {
   }
 };
 
+/// The apron of coefficients on the Cartesian lattice for a spline's: the one cell of an axis of one sample reaches as far beyond it as a cell
+/// beyond the last one would.
+inline int cartesian_apron(const Extents& n, int apron) { return n.x == 1 || n.y == 1 || n.z == 1 ? apron + 1 : apron; }
+
 /// Repeats the ends of a row of n values `width` times on both sides.
 template <class T>
 void extend_row(T* row, std::int64_t n, int width) {

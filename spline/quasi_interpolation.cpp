@@ -40,15 +40,15 @@ bool convolve_row(const SampleRows<S>& source, const BccMask& mask, const ValueU
   return largest <= double(std::numeric_limits<T>::max());
 }
 
-/// Row (j,k) convolved along z, then y, then x. `along_z_y` is scratch of extents.x + 2. Returns whether every value
+/// Row (j,k) of a coset convolved along z, then y, then x. `along_z_y` is scratch of extents.x + 2. Returns whether every value
 /// fits T.
 template <class T, class S>
-bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, const ValueUnit& unit, std::int64_t j, std::int64_t k, T* out,
+bool convolve_row(const SampleRows<S>& source, const AxisMask& mask, const ValueUnit& unit, int coset, std::int64_t j, std::int64_t k, T* out,
                   double* along_z_y) {
   const std::int64_t n = source.extents.x;
   const S* rows[3][3];
   for (int b = 0; b < 3; ++b)
-    for (int a = 0; a < 3; ++a) rows[b][a] = source.row(0, j + b - 1, k + a - 1);
+    for (int a = 0; a < 3; ++a) rows[b][a] = source.row(coset, j + b - 1, k + a - 1);
   for (std::int64_t i = 0; i < n; ++i) {
     double along_z[3];
     for (int b = 0; b < 3; ++b)
@@ -82,23 +82,21 @@ Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int 
 }
 
 template <class T>
-Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline, const ValueUnit& unit,
-                                 const Progress& progress) {
-  // The one cell of an axis of one sample reaches as far beyond it as a cell beyond the last one would.
-  const Extents& n = volume.extents;
-  const int wide = n.x == 1 || n.y == 1 || n.z == 1 ? apron + 1 : apron;
-  const auto row = [&](const auto& source, int, std::int64_t j, std::int64_t k, T* out, double* scratch) {
-    if (mask.side != 0.0) return convolve_row(source, mask, unit, j, k, out, scratch);
-    const auto* from = source.row(0, j, k);
+Coefficients<T> axis_coefficients(const Volume& volume, LatticeKind lattice, const AxisMask& mask, int apron, std::string_view spline,
+                                  const ValueUnit& unit, const Progress& progress) {
+  const int wide = lattice == LatticeKind::cartesian ? cartesian_apron(volume.extents, apron) : apron;
+  const auto row = [&](const auto& source, int coset, std::int64_t j, std::int64_t k, T* out, double* scratch) {
+    if (mask.side != 0.0) return convolve_row(source, mask, unit, coset, j, k, out, scratch);
+    const auto* from = source.row(coset, j, k);
     for (std::int64_t i = 0; i < source.extents.x; ++i) out[i] = T(unit.number(double(from[i])));
     return true;
   };
-  return convolve<T>(volume, LatticeKind::cartesian, wide, spline, unit, row, progress);
+  return convolve<T>(volume, lattice, wide, spline, unit, row, progress);
 }
 
 template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&, const Progress&);
 template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&, const Progress&);
-template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
-template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
+template Coefficients<double> axis_coefficients(const Volume&, LatticeKind, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
+template Coefficients<float> axis_coefficients(const Volume&, LatticeKind, const AxisMask&, int, std::string_view, const ValueUnit&, const Progress&);
 
 }  // namespace quincunx

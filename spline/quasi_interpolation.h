@@ -24,7 +24,7 @@ inline constexpr BccMask kBcc7Mask{38, -1, -1, 24};
 /// For bcc8: 5/3 at the centre, -1/12 at the 8 points (+-1,+-1,+-1).
 inline constexpr BccMask kBcc8Mask{20, 0, -1, 12};
 
-/// A symmetric mask of three taps, integers over one denominator, applied along each axis of a Cartesian grid. Where the
+/// A symmetric mask of three taps, integers over one denominator, applied along each axis of a Cartesian grid or of each coset. Where the
 /// sides are 0 it must be the identity.
 struct AxisMask {
   double side, centre, denominator;
@@ -32,6 +32,8 @@ struct AxisMask {
 
 /// The samples as they are.
 inline constexpr AxisMask kIdentityAxisMask{0, 1, 1};
+/// For quadratic B-splines: 5/4 at the centre, -1/8 at either side.
+inline constexpr AxisMask kQuadraticAxisMask{-1, 10, 8};
 /// For cubic B-splines: 4/3 at the centre, -1/6 at either side.
 inline constexpr AxisMask kCubicAxisMask{-1, 8, 6};
 
@@ -43,18 +45,19 @@ template <class T>
 Coefficients<T> bcc_coefficients(const Volume& volume, const BccMask& mask, int apron, std::string_view spline,
                                  const ValueUnit& unit, const Progress& progress);
 
-/// The same on the Cartesian lattice; the apron is one sample wider where an axis has one sample (Spline::apron).
+/// The same of each coset apart along its axes, on the lattice that is told; the apron is one sample wider where an axis of the Cartesian one
+/// has one sample (Spline::apron).
 template <class T>
-Coefficients<T> cartesian_coefficients(const Volume& volume, const AxisMask& mask, int apron, std::string_view spline,
-                                       const ValueUnit& unit, const Progress& progress);
+Coefficients<T> axis_coefficients(const Volume& volume, LatticeKind lattice, const AxisMask& mask, int apron, std::string_view spline,
+                                  const ValueUnit& unit, const Progress& progress);
 
 extern template Coefficients<double> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&,
                                                       const Progress&);
 extern template Coefficients<float> bcc_coefficients(const Volume&, const BccMask&, int, std::string_view, const ValueUnit&,
                                                       const Progress&);
-extern template Coefficients<double> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&,
-                                                      const Progress&);
-extern template Coefficients<float> cartesian_coefficients(const Volume&, const AxisMask&, int, std::string_view, const ValueUnit&,
+extern template Coefficients<double> axis_coefficients(const Volume&, LatticeKind, const AxisMask&, int, std::string_view, const ValueUnit&,
+                                                       const Progress&);
+extern template Coefficients<float> axis_coefficients(const Volume&, LatticeKind, const AxisMask&, int, std::string_view, const ValueUnit&,
                                                       const Progress&);
 
 }  // namespace quincunx

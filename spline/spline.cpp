@@ -4,12 +4,15 @@
 #include <string>
 
 #include "lattice/error.h"
+#include "spline/bcc12.h"
 #include "spline/bcc4.h"
 #include "spline/bcc7.h"
-#include "spline/cwlb.h"
 #include "spline/bcc8.h"
+#include "spline/catmull_rom.h"
+#include "spline/cwlb.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
+#include "spline/triquadratic.h"
 
 namespace quincunx {
 namespace {
@@ -29,9 +32,12 @@ constexpr Row kSplines[] = {
     {"bcc4", make<Bcc4>},
     {"bcc7", make<Bcc7>},
     {"bcc8", make<Bcc8>},
+    {"bcc12", make<Bcc12>},
     {"cwlb", make<Cwlb>},
     {"trilinear", make<Trilinear>},
+    {"triquadratic", make<Triquadratic>},
     {"tricubic", make<Tricubic>},
+    {"catmull-rom", make<CatmullRom>},
 };
 
 }  // namespace

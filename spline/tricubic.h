@@ -1,35 +1,41 @@
 // The tricubic B-spline on the Cartesian lattice.
 #pragma once
 
-#include "spline/spline.h"
+#include <cmath>
+
+#include "spline/tensor_spline.h"
 
 namespace quincunx {
 
-/// The product of centred cubic B-splines along the axes: C2, 64 samples reach any cell, of degree 9 along a ray. With
-/// quasi-interpolation (-1/6, 4/3, -1/6 along each axis) of approximation order 4, without of order 2.
-class Tricubic final : public Spline {
- public:
-  std::string_view name() const override { return "tricubic"; }
-  LatticeKind lattice() const override { return LatticeKind::cartesian; }
-  int degree() const override { return 9; }
-  int apron() const override { return 1; }
-  std::span<const Filter> filters() const override { return kFilters; }
-  std::string_view shader() const override { return "tricubic.glsl"; }
+/// The centred cubic B-spline, by its pieces on 1 <= |x| <= 2 and |x| <= 1; every term is positive.
+struct CubicBasis {
+  static constexpr std::string_view kName = "tricubic", kShader = "tricubic.glsl";
+  static constexpr int kTaps = 4;
+  static constexpr int kFirst = -1;
+  static constexpr std::array<double, 4> kBernstein[4] = {{1.0 / 6.0, 0.0, 0.0, 0.0},
+                                                          {4.0 / 6.0, 4.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0},
+                                                          {1.0 / 6.0, 2.0 / 6.0, 4.0 / 6.0, 4.0 / 6.0},
+                                                          {0.0, 0.0, 0.0, 1.0 / 6.0}};
+  static constexpr AxisMask kFir = kCubicAxisMask;
+  static constexpr InterpolationMask kInterpolation = kCubicInterpolation;
+  static constexpr Spline::Filter kFilters[] = {{Spline::Prefilter::fir, 1, 125.0 / 27.0, 4},
+                                                {Spline::Prefilter::iir, kInterpolation.reach, 27.0, 4},
+                                                {Spline::Prefilter::none, 0, 1.0, 2}};
 
-  Jet generator(const glm::dvec3& x) const override;
-  Jet evaluate(const Coefficients<double>& c, const glm::dvec3& u) const override;
-  /// A cell is one piece: nothing to append.
-  void split(const glm::ivec3&, const glm::dvec3&, const glm::dvec3&, double, double,
-             std::vector<double>&) const override {}
-  void restrict_to_segment(const Coefficients<double>& c, const glm::ivec3& cell, const glm::dvec3& a,
-                           const glm::dvec3& b, std::span<double> bernstein) const override;
-  Coefficients<double> coefficients(const Volume& volume, Prefilter prefilter,
-                                    const Progress& progress = {}) const override;
-  Coefficients<float> coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit = {},
-                                         const Progress& progress = {}) const override;
-
- private:
-  static constexpr Filter kFilters[] = {{Prefilter::fir, 1, 125.0 / 27.0, 4}, {Prefilter::none, 0, 1.0, 2}};
+  static AxisJet at(double x) {
+    const double a = std::abs(x), sign = x < 0.0 ? -1.0 : 1.0;
+    if (a >= 2.0) return {0.0, 0.0};
+    if (a >= 1.0) {
+      const double v = 2.0 - a;
+      return {v * v * v / 6.0, sign * -0.5 * v * v};
+    }
+    const double v = 1.0 - a;
+    return {(1.0 + 3.0 * v * (1.0 + v * a)) / 6.0, sign * a * (1.5 * a - 2.0)};
+  }
 };
+
+/// The product of centred cubic B-splines along the axes: C2, 64 samples reach any cell, of degree 9 along a ray. With
+/// quasi-interpolation (-1/6, 4/3, -1/6 along each axis) of approximation order 4, interpolating (iir) of the same, without of order 2.
+using Tricubic = TensorSpline<CubicBasis>;
 
 }  // namespace quincunx

@@ -68,12 +68,12 @@ void Trilinear::restrict_to_segment(const Coefficients<double>& c, const glm::iv
 
 Coefficients<double> Trilinear::coefficients(const Volume& volume, Prefilter prefilter, const Progress& progress) const {
   filter(prefilter);
-  return cartesian_coefficients<double>(volume, kIdentityAxisMask, apron(), name(), {}, progress);
+  return axis_coefficients<double>(volume, lattice(), kIdentityAxisMask, apron(), name(), {}, progress);
 }
 
 Coefficients<float> Trilinear::coefficients_float(const Volume& volume, Prefilter prefilter, const ValueUnit& unit, const Progress& progress) const {
   filter(prefilter);
-  return cartesian_coefficients<float>(volume, kIdentityAxisMask, apron(), name(), unit, progress);
+  return axis_coefficients<float>(volume, lattice(), kIdentityAxisMask, apron(), name(), unit, progress);
 }
 
 }  // namespace quincunx

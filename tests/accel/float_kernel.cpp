@@ -33,19 +33,26 @@ class Kuhn final : public FloatKernel {
   FloatPiece piece_;
 };
 
-/// A cell of a Cartesian lattice.
+/// A cell, seen as a part of the cube between 8 samples of a Cartesian lattice or of a coset.
 class Cube : public FloatKernel {
  public:
-  Cube(const Coefficients<float>& c, const glm::ivec3& cell) : c_(c), cell_(cell) {}
+  Cube(const Coefficients<float>& c, const glm::ivec3& cell, int coset = 0)
+      : c_(c), cell_(cell), coset_(coset), index_(c.lattice == LatticeKind::bcc ? (cell - coset) >> 1 : cell) {}
   glm::dvec3 vertex(int n) const override { return glm::dvec3(cell_ + glm::ivec3(n & 1, n >> 1 & 1, n >> 2 & 1)); }
 
  protected:
-  float sample(int i, int j, int k) const { return c_.data[c_.number(0, glm::i64vec3(cell_ + glm::ivec3(i, j, k)))]; }
-  glm::vec3 own(const glm::dvec3& u) const { return glm::vec3(u - glm::dvec3(cell_)); }
+  float sample(int i, int j, int k) const { return c_.data[c_.number(coset_, glm::i64vec3(index_ + glm::ivec3(i, j, k)))]; }
+  glm::vec3 own(const glm::dvec3& u) const {
+    const glm::vec3 w(u - glm::dvec3(cell_));
+    const int step = lattice_step(c_.lattice);
+    return glm::vec3(cell_ - step * index_ - coset_) / float(step) + w / float(step);
+  }
 
  private:
   const Coefficients<float>& c_;
   glm::ivec3 cell_;
+  int coset_;
+  glm::ivec3 index_;
 };
 
 class Linear final : public Cube {
@@ -70,47 +77,59 @@ class Linear final : public Cube {
   }
 };
 
-/// Weights 6 times too large, so the values are divided by 216 at the end.
-class Cubic final : public Cube {
+/// One of the eight pieces of a cell. Weights twice too large, so the values are divided by 8 at the end.
+class Quadratic final : public Cube {
  public:
-  using Cube::Cube;
+  Quadratic(const Coefficients<float>& c, const glm::ivec3& cell, const glm::dvec3& u)
+      : Cube(c, cell), low_(cell), above_(glm::greaterThanEqual(u, low_ + 0.5)) {}
+  glm::dvec3 vertex(int n) const override { return low_ + 0.5 * glm::dvec3(above_) + 0.5 * glm::dvec3(n & 1, n >> 1 & 1, n >> 2 & 1); }
   float value(const glm::dvec3& u) const override {
-    const glm::vec3 w = own(u);
-    const Weights x = at(w.x), y = at(w.y), z = at(w.z);
+    const glm::vec3 t = piece(u);
+    const Weights x = at(t.x), y = at(t.y), z = at(t.z);
     float sum = 0.0f;
-    for (int k = 0; k < 4; ++k) {
-      float plane = 0.0f;
-      for (int j = 0; j < 4; ++j) {
-        float row = 0.0f;
-        for (int i = 0; i < 4; ++i) row += x[i] * sample(i - 1, j - 1, k - 1);
-        plane += y[j] * row;
-      }
-      sum += z[k] * plane;
-    }
-    return sum * (1.0f / 216.0f);
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j) sum += z[k] * (y[j] * ((x[0] * reached(0, j, k) + x[1] * reached(1, j, k)) + x[2] * reached(2, j, k)));
+    return sum * (1.0f / 8.0f);
   }
   std::vector<float> bernstein(const glm::dvec3& from, const glm::dvec3& to) const override {
-    const glm::vec3 a = own(from), b = own(to);
-    const auto x = along(a.x, b.x), y = along(a.y, b.y), z = along(a.z, b.z);
-    std::vector<float> sum(10);
-    for (int k = 0; k < 4; ++k) {
-      float plane[7] = {};
-      for (int j = 0; j < 4; ++j)
-        for (int m = 0; m < 4; ++m) {
+    const glm::vec3 p = piece(from), q = piece(to);
+    const auto x = along(p.x, q.x), y = along(p.y, q.y), z = along(p.z, q.z);
+    std::vector<float> sum(7);
+    for (int k = 0; k < 3; ++k) {
+      float plane[5] = {};
+      for (int j = 0; j < 3; ++j)
+        for (int m = 0; m < 3; ++m) {
           float row = 0.0f;
-          for (int i = 0; i < 4; ++i) row += x[i][m] * sample(i - 1, j - 1, k - 1);
-          for (int n = 0; n < 4; ++n) plane[m + n] += row * y[j][n];
+          for (int i = 0; i < 3; ++i) row += x[i][m] * reached(i, j, k);
+          for (int n = 0; n < 3; ++n) plane[m + n] += row * y[j][n];
         }
-      for (int m = 0; m < 7; ++m)
-        for (int n = 0; n < 4; ++n) sum[std::size_t(m + n)] += plane[m] * z[k][n];
+      for (int m = 0; m < 5; ++m)
+        for (int n = 0; n < 3; ++n) sum[std::size_t(m + n)] += plane[m] * z[k][n];
     }
-    const float binomials[10] = {1, 9, 36, 84, 126, 126, 84, 36, 9, 1};
-    for (int m = 0; m < 10; ++m) sum[std::size_t(m)] *= 1.0f / 216.0f / binomials[m];
+    const float binomials[7] = {1, 6, 15, 20, 15, 6, 1};
+    for (int m = 0; m < 7; ++m) sum[std::size_t(m)] *= 1.0f / 8.0f / binomials[m];
     return sum;
   }
 
  private:
-  using Weights = std::array<float, 4>;
+  using Weights = std::array<float, 3>;
+  glm::vec3 piece(const glm::dvec3& u) const { return own(u) + glm::mix(glm::vec3(0.5f), glm::vec3(-0.5f), above_); }
+  float reached(int i, int j, int k) const { return sample(i - !above_.x, j - !above_.y, k - !above_.z); }
+  static Weights at(float t) { return {(1.0f - t) * (1.0f - t), 1.0f + 2.0f * (t * (1.0f - t)), t * t}; }
+  /// Polar forms of the weights at (p,p), (p,q), (q,q), times 1, 2, 1.
+  static std::array<Weights, 3> along(float p, float q) {
+    const float r = 1.0f - p, s = 1.0f - q;
+    return {Weights{r * r, 2.0f * (r * s), s * s}, {1.0f + 2.0f * (p * r), 2.0f + 2.0f * (p * s + q * r), 1.0f + 2.0f * (q * s)},
+            {p * p, 2.0f * (p * q), q * q}};
+  }
+  glm::dvec3 low_;
+  glm::bvec3 above_;
+};
+
+using Weights = std::array<float, 4>;
+
+struct BSpline {
+  static constexpr float kScale = 6.0f;
   static Weights at(float x) {
     const float y = 1.0f - x;
     return {y * y * y, 4.0f + x * x * (3.0f * x - 6.0f), 4.0f + y * y * (3.0f * y - 6.0f), x * x * x};
@@ -159,17 +178,96 @@ class CosineWeighted final : public FloatKernel {
   glm::ivec3 even_, sign_;
 };
 
+struct CatmullRom {
+  static constexpr float kScale = 2.0f;
+  static Weights at(float x) {
+    const float y = 1.0f - x;
+    return {-(x * (y * y)), 2.0f + x * x * (3.0f * x - 5.0f), 2.0f + y * y * (3.0f * y - 5.0f), -(y * (x * x))};
+  }
+  static Weights outer(float p, float q) {
+    const float r = 1.0f - p, s = 1.0f - q;
+    return {-(p * r * r), -(2.0f * (p * r * s) + q * r * r), -(p * s * s + 2.0f * (q * r * s)), -(q * s * s)};
+  }
+  static Weights inner(float p, float q) {
+    const auto polar = [](float a, float b, float c) { return 6.0f - 5.0f * (a * b + b * c + c * a) + 9.0f * (a * b * c); };
+    return {polar(p, p, p) * (1.0f / 3.0f), polar(p, p, q), polar(p, q, q), polar(q, q, q) * (1.0f / 3.0f)};
+  }
+  static std::array<Weights, 4> along(float p, float q) {
+    return {outer(p, q), inner(p, q), inner(1.0f - p, 1.0f - q), outer(1.0f - p, 1.0f - q)};
+  }
+};
+
+/// Weights Basis::kScale times too large, so the values are divided by its cube at the end.
+template <class Basis>
+class Cubic final : public Cube {
+ public:
+  using Cube::Cube;
+  float value(const glm::dvec3& u) const override {
+    const glm::vec3 w = own(u);
+    const Weights x = Basis::at(w.x), y = Basis::at(w.y), z = Basis::at(w.z);
+    float sum = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+      float plane = 0.0f;
+      for (int j = 0; j < 4; ++j) {
+        float row = 0.0f;
+        for (int i = 0; i < 4; ++i) row += x[i] * sample(i - 1, j - 1, k - 1);
+        plane += y[j] * row;
+      }
+      sum += z[k] * plane;
+    }
+    return sum * (1.0f / (Basis::kScale * Basis::kScale * Basis::kScale));
+  }
+  std::vector<float> bernstein(const glm::dvec3& from, const glm::dvec3& to) const override {
+    const glm::vec3 a = own(from), b = own(to);
+    const auto x = Basis::along(a.x, b.x), y = Basis::along(a.y, b.y), z = Basis::along(a.z, b.z);
+    std::vector<float> sum(10);
+    for (int k = 0; k < 4; ++k) {
+      float plane[7] = {};
+      for (int j = 0; j < 4; ++j)
+        for (int m = 0; m < 4; ++m) {
+          float row = 0.0f;
+          for (int i = 0; i < 4; ++i) row += x[i][m] * sample(i - 1, j - 1, k - 1);
+          for (int n = 0; n < 4; ++n) plane[m + n] += row * y[j][n];
+        }
+      for (int m = 0; m < 7; ++m)
+        for (int n = 0; n < 4; ++n) sum[std::size_t(m + n)] += plane[m] * z[k][n];
+    }
+    const float binomials[10] = {1, 9, 36, 84, 126, 126, 84, 36, 9, 1};
+    for (int m = 0; m < 10; ++m) sum[std::size_t(m)] *= 1.0f / (Basis::kScale * Basis::kScale * Basis::kScale) / binomials[m];
+    return sum;
+  }
+};
+
+/// bcc12: the cubes of the two cosets, halved and added.
+class TwoCubes final : public FloatKernel {
+ public:
+  TwoCubes(const Coefficients<float>& c, const glm::ivec3& cell) : even_(c, cell, 0), odd_(c, cell, 1) {}
+  float value(const glm::dvec3& u) const override { return 0.5f * (even_.value(u) + odd_.value(u)); }
+  std::vector<float> bernstein(const glm::dvec3& a, const glm::dvec3& b) const override {
+    std::vector<float> sum = even_.bernstein(a, b);
+    const std::vector<float> odd = odd_.bernstein(a, b);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = 0.5f * (sum[i] + odd[i]);
+    return sum;
+  }
+  glm::dvec3 vertex(int n) const override { return even_.vertex(n); }
+
+ private:
+  Cubic<BSpline> even_, odd_;
+};
+
 }  // namespace
 
 std::unique_ptr<FloatKernel> float_kernel(const Spline& spline, const Coefficients<float>& c, const glm::ivec3& cell,
                                           const glm::dvec3& u) {
-  if (spline.name() == "bcc7") return std::make_unique<Quartic>(c, locate(cell, u));
   if (spline.name() == "cwlb") return std::make_unique<CosineWeighted>(c, cell);
   if (spline.name() == "bcc4") return std::make_unique<Kuhn<kBcc4Net>>(c, locate(cell, u));
   if (spline.name() == "bcc7") return std::make_unique<Kuhn<kBcc7Net>>(c, locate(cell, u));
   if (spline.name() == "bcc8") return std::make_unique<Kuhn<kBcc8Net>>(c, locate(cell, u));
+  if (spline.name() == "bcc12") return std::make_unique<TwoCubes>(c, cell);
   if (spline.name() == "trilinear") return std::make_unique<Linear>(c, cell);
-  if (spline.name() == "tricubic") return std::make_unique<Cubic>(c, cell);
+  if (spline.name() == "triquadratic") return std::make_unique<Quadratic>(c, cell, u);
+  if (spline.name() == "tricubic") return std::make_unique<Cubic<BSpline>>(c, cell);
+  if (spline.name() == "catmull-rom") return std::make_unique<Cubic<CatmullRom>>(c, cell);
   throw std::logic_error("no kernel in floats for spline " + std::string(spline.name()));
 }
 

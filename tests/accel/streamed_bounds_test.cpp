@@ -45,9 +45,9 @@ void for_each_case(const Check& check) {
   for (const std::string_view name : spline_names()) {
     const auto spline = make_spline(name);
     for (const Extents& extents : extents_of(spline->lattice()))
-      for (const Spline::Prefilter prefilter : {Spline::Prefilter::automatic, Spline::Prefilter::none}) {
-        SCOPED_TRACE(std::string(name) + ", " + std::to_string(extents.x) + " samples along x");
-        check(*spline, prefilter, waves(spline->lattice(), extents));
+      for (const Spline::Filter& filter : spline->filters()) {
+        SCOPED_TRACE(std::string(name) + ", " + std::string(prefilter_name(filter.kind)) + ", " + std::to_string(extents.x) + " samples along x");
+        check(*spline, filter.kind, waves(spline->lattice(), extents));
       }
   }
 }

@@ -81,10 +81,10 @@ TEST(VoidCells, AreThoseInWhichSamplesThatAreNotFiniteHaveAWeight) {
 }
 
 TEST(VoidCells, AreAsManyAboutOneSampleAsItsWeightReaches) {
-  // 8 and 64 cells about a point; of bcc4, bcc7 and bcc8, whose cells 8, 40 and 46 samples reach, with a sample for 4 cells: 32, 160 and 184; of cwlb,
-  // whose 16 do: 64.
-  for (const auto& [name, expected] :
-       {std::pair{"trilinear", 8u}, {"tricubic", 64u}, {"bcc4", 32u}, {"bcc7", 160u}, {"bcc8", 184u}, {"cwlb", 64u}}) {
+  // 8 and 64 cells about a point, the outer ones of triquadratic by half; of bcc4, bcc7, bcc8 and bcc12, whose cells 8, 40, 46 and 128 samples reach, with a
+  // sample for 4 cells: 32, 160, 184 and 512; of cwlb, whose 16 do: 64.
+  for (const auto& [name, expected] : {std::pair{"trilinear", 8u}, {"triquadratic", 64u}, {"tricubic", 64u}, {"catmull-rom", 64u}, {"bcc4", 32u}, {"bcc7", 160u},
+                                       {"bcc8", 184u}, {"bcc12", 512u}, {"cwlb", 64u}}) {
     const std::unique_ptr<Spline> spline = make_spline(name);
     Volume volume = holed_noise(spline->lattice(), {9, 9, 9}, 0.0, 1);
     std::get<std::vector<float>>(volume.samples)[4 * 81 + 4 * 9 + 4] = kNan;

@@ -108,7 +108,11 @@ TEST_P(JudgeTest, SeesNaN) {
   EXPECT_FALSE(judge(frame_).passed());
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, JudgeTest, ::testing::ValuesIn(spline_names()), [](const auto& name) { return std::string(name.param); });
+INSTANTIATE_TEST_SUITE_P(Splines, JudgeTest, ::testing::ValuesIn(spline_names()), [](const auto& instance) {
+  std::string name(instance.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 /// A plane of rays along x at heights about a sheet that they graze: f = z - 15.25 - 1e-9 (x - 15.5)^2 would be decided by rounding.
 TEST(Judge, ExcusesWhatRoundingMayDecideAndNothingMore) {

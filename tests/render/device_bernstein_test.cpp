@@ -12,7 +12,7 @@ namespace {
 
 using Polynomial = std::vector<float>;  // Bernstein coefficients on [0,1], the first one positive
 
-/// The degrees along a ray: bcc4, trilinear, bcc7, bcc8, tricubic.
+/// The degrees along a ray: bcc4, trilinear, bcc7, bcc8, triquadratic, and cubics along the axes.
 class DeviceBernsteinTest : public DeviceTest, public ::testing::WithParamInterface<int> {
  protected:
   std::vector<float> device_roots(const std::vector<Polynomial>& polynomials) const {
@@ -163,7 +163,7 @@ TEST_P(DeviceQuarticTest, FindsTheRootsThatAnImageLost) {
   expect_right({{2100.33f, 70.3226f, -692.753f, -220.221f, 1282.43f}, {0.873265f, -12.2934f, -33.2884f, -26.9711f, 48.1246f}});
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees, DeviceBernsteinTest, ::testing::Values(1, 3, 4, 5, 9));
+INSTANTIATE_TEST_SUITE_P(Degrees, DeviceBernsteinTest, ::testing::Values(1, 3, 4, 5, 6, 9));
 INSTANTIATE_TEST_SUITE_P(Degrees, DeviceQuarticTest, ::testing::Values(4));
 
 }  // namespace

@@ -147,7 +147,8 @@ TEST_P(EveryLook, IsTheSameThroughAPool) {
   EXPECT_GT(evictions, 30u) << "pools were too small";
 }
 
-INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::ValuesIn(spline_names()), [](const auto& spline) { return std::string(spline.param); });
+// Of the others too, small volumes (below): their cells reach what these do, or it is not the pool that knows (accel/bricks.h).
+INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::Values("bcc7", "trilinear", "tricubic"), [](const auto& spline) { return std::string(spline.param); });
 
 TEST_F(DeviceBricksTest, EveryStructureWithBlocksOfEverySizeShowsTheSame) {
   const Volume volume = bumps(LatticeKind::cartesian, {19, 22, 17});

@@ -1,6 +1,7 @@
 // The splines' GLSL twins against their double-precision classes: value, gradient, Bernstein coefficients, refined roots.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "shaders/shaders.h"
@@ -204,7 +205,11 @@ TEST_P(DeviceSplineTest, RefinesARootByOneNewtonStepAndGivesTheGradientThere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Splines, DeviceSplineTest, ::testing::ValuesIn(spline_names()),
-                         [](const auto& name) { return std::string(name.param); });
+                         [](const auto& instance) {
+                           std::string name(instance.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace quincunx

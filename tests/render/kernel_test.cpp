@@ -120,7 +120,7 @@ std::vector<KernelVariant> brick_variants() {
 
 /// Every fifth of `variants` in 64-bit floats, of each spline in turns.
 std::vector<KernelVariant> in_doubles(const std::vector<KernelVariant>& variants) {
-  const std::string shaders[] = {"bcc7.glsl", "trilinear.glsl", "tricubic.glsl", "bcc4.glsl", "bcc8.glsl"};
+  const std::string shaders[] = {"bcc7.glsl", "bcc4.glsl", "bcc8.glsl", "bcc12.glsl", "trilinear.glsl", "triquadratic.glsl", "tricubic.glsl", "catmull-rom.glsl"};
   std::vector<KernelVariant> doubles;
   for (std::size_t n = 0; n < variants.size(); n += 5) {
     doubles.push_back(variants[n]);

@@ -81,9 +81,9 @@ TEST(TracerWithVoids, CrossesWhatDenseSamplesCrossOutsideVoidCellsAndNothingElse
   }
 }
 
-/// f = x but for a slab of samples 9 <= x <= 10.
+/// f = x but for a slab of samples 11 <= x <= 12.
 Volume ramp_with_a_slab(LatticeKind lattice) {
-  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 9.0 || u.x == 10.0 ? kNan : u.x; });
+  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 11.0 || u.x == 12.0 ? kNan : u.x; });
 }
 /// 0 in front of the slab, 1 behind.
 Volume step_with_a_slab(LatticeKind lattice) {
@@ -94,7 +94,7 @@ TEST(TracerWithVoids, HitsTheSurfaceBehindAVoidAndIsNotPoisonedBesideIt) {
   for (const std::string_view name : spline_names()) {
     const Emptied e(ramp_with_a_slab(make_spline(name)->lattice()), name);
     for (const Intersect way : {Intersect::exact, Intersect::march})
-      for (const double x : {5.5, 14.0, 17.3}) {  // the slab's weights reach from 6 to 13 (bcc7)
+      for (const double x : {5.5, 16.5, 17.3}) {  // the slab's weights reach from 7 to 16, the border's to 5 (bcc12)
         const Tracer tracer(*e.spline, e.coefficients, std::array{x}, nullptr, {way, 0.3}, &e.voids);
         const auto ray = clip_ray(ray_space(e.volume.lattice, e.volume.extents, e.volume.world, {-4.0, 11.3, 12.4}), {1, 0, 0});
         const std::vector<double> found = crossings_of(tracer, *ray);

@@ -7,6 +7,7 @@
 #include "lattice/error.h"
 #include "spline/tricubic.h"
 #include "spline/trilinear.h"
+#include "spline/triquadratic.h"
 #include "tests/spline/spline_fixtures.h"
 
 namespace quincunx {
@@ -20,9 +21,9 @@ double clamped_sample(const Volume& volume, const glm::i64vec3& index) {
   return volume.sample(0, glm::clamp(index, glm::i64vec3(0), volume.extents - std::int64_t(1)));
 }
 
-/// The tensor product of (-1/6, 4/3, -1/6) at an index, over its 27 samples.
-double cubic_filtered(const Volume& volume, const glm::i64vec3& index) {
-  const double weights[3] = {-1.0 / 6.0, 4.0 / 3.0, -1.0 / 6.0};
+/// The tensor product of (-side, 1 + 2 side, -side) at an index, over its 27 samples.
+double filtered(const Volume& volume, const glm::i64vec3& index, double side) {
+  const double weights[3] = {-side, 1.0 + 2.0 * side, -side};
   double sum = 0.0;
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b < 3; ++b)
@@ -32,13 +33,17 @@ double cubic_filtered(const Volume& volume, const glm::i64vec3& index) {
   return sum;
 }
 
+constexpr double kCubicSide = 1.0 / 6.0, kQuadraticSide = 1.0 / 8.0;
+
 TEST(CartesianCoefficients, AreTheDefinitionWithClampedSamplesAndClampedAprons) {
   for (const Extents& extents : kExtents) {
     const Volume volume = random_volume(LatticeKind::cartesian, extents, 1);
     const auto c = Tricubic().coefficients(volume, kPrefiltered);
+    const auto quadratic = Triquadratic().coefficients(volume, kPrefiltered);
     const auto plain = Trilinear().coefficients(volume, kPrefiltered);
     const bool thin = std::min({extents.x, extents.y, extents.z}) == 1;
     EXPECT_EQ(c.apron, thin ? 2 : 1);
+    EXPECT_EQ(quadratic.apron, c.apron);
     EXPECT_EQ(plain.apron, thin ? 1 : 0);
     const auto check = [&](const Coefficients<double>& found, const auto& value) {
       const glm::i64vec3 p = found.padded();
@@ -48,13 +53,14 @@ TEST(CartesianCoefficients, AreTheDefinitionWithClampedSamplesAndClampedAprons) 
         EXPECT_NEAR(found.data[std::size_t(n)], value(glm::clamp(index, glm::i64vec3(0), extents - std::int64_t(1))), 3e-15);
       }
     };
-    check(c, [&](const glm::i64vec3& index) { return cubic_filtered(volume, index); });
+    check(c, [&](const glm::i64vec3& index) { return filtered(volume, index, kCubicSide); });
+    check(quadratic, [&](const glm::i64vec3& index) { return filtered(volume, index, kQuadraticSide); });
     check(plain, [&](const glm::i64vec3& index) { return clamped_sample(volume, index); });
   }
 }
 
 TEST(CartesianCoefficients, HoldTheStencilOfEveryPointAndCellOfTheSmallestDomains) {
-  for (const std::string_view name : {"trilinear", "tricubic"}) {
+  for (const auto& [name, side] : {std::pair{"trilinear", 0.0}, {"triquadratic", kQuadraticSide}, {"tricubic", kCubicSide}, {"catmull-rom", 0.0}}) {
     const auto spline = make_spline(name);
     for (const Extents& extents : kExtents) {
       const Volume volume = random_volume(LatticeKind::cartesian, extents, 2);
@@ -67,7 +73,7 @@ TEST(CartesianCoefficients, HoldTheStencilOfEveryPointAndCellOfTheSmallestDomain
             double sum = 0.0;
             for_lattice_points(LatticeKind::cartesian, u, 2.0, [&](int, const glm::i64vec3& index, const glm::dvec3& j) {
               const auto inside = glm::clamp(index, glm::i64vec3(0), extents - std::int64_t(1));
-              const double coefficient = name == "tricubic" ? cubic_filtered(volume, inside) : clamped_sample(volume, inside);
+              const double coefficient = filtered(volume, inside, side);
               sum += coefficient * spline->generator(u - j).value;
             });
             EXPECT_NEAR(spline->evaluate(c, u).value, sum, 4e-15) << name;

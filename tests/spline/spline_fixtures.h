@@ -60,11 +60,11 @@ void for_lattice_points(LatticeKind lattice, const glm::dvec3& centre, double re
   }
 }
 
-/// Distance of x from the nearest plane x_a integer or x_a +- x_b integer: the knot planes of every spline here.
+/// Distance of x from the nearest plane 2 x_a integer or x_a +- x_b integer (along an axis): the knot planes of every spline here.
 inline double knot_distance(const glm::dvec3& x) {
   double least = 1.0;
-  for (const double p : {x.x, x.y, x.z, x.x + x.y, x.x - x.y, x.y + x.z, x.y - x.z, x.x + x.z, x.x - x.z})
-    least = std::min(least, std::abs(p - std::round(p)));
+  for (const double p : {2.0 * x.x, 2.0 * x.y, 2.0 * x.z}) least = std::min(least, 0.5 * std::abs(p - std::round(p)));
+  for (const double p : {x.x + x.y, x.x - x.y, x.y + x.z, x.y - x.z, x.x + x.z, x.x - x.z}) least = std::min(least, std::abs(p - std::round(p)));
   return least;
 }
 
