@@ -110,6 +110,16 @@ TEST_F(Pool, HasNoMoreSlotsThanBricks) {
   EXPECT_EQ(told["bricks"]["evictions"], 0);
 }
 
+TEST_F(Pool, HoldsMoreBricksOfFewerBits) {
+  // Bricks of 5^3 coefficients: 500 bytes of floats.
+  for (const auto& [storage, slots] : {std::pair{"float32", 10}, {"unorm16", 20}, {"unorm8", 27}}) {
+    const auto [image, told] = picture({volume, "--iso", "0", "--size", "16", "16", "--pool", "5000", "--brick", "4", "--spline", "trilinear", "--storage", storage});
+    EXPECT_EQ(told["bricks"]["slots"], slots) << storage;
+    EXPECT_EQ(told["storage"], storage);
+    EXPECT_GT(told["hits"], 50);
+  }
+}
+
 TEST_F(Pool, OfNoSizeIsRefused) {
   for (const std::string bad : {"0", "10", "many", "-5M", "", "4MB", "nan", "1e3", "99999T"})
     expect_refused(render({"--pool=" + bad}), {"--pool", bad});
