@@ -21,8 +21,7 @@
 // Evaluation. In monomial form about the even corner (coefficients from the samples, then Horner's rule, arguments in
 // [0,1]) the error is at most e times the sum over the operations of their largest results, which tests/spline/piece_tables_test.cpp adds up:
 // 16 e m, 132 e m and 230 e m of values. Sums over the operations that lead to the Bernstein coefficients along a ray are up to 31, 1154 and 3129 e m,
-// of which nothing is near in fact: on alternating signs, where most cancels, those of bcc7 stay below 25 e m, those of bcc8 below 50 e m
-// (tests/accel/bounds_test.cpp). The net here is computed within 32 e m (net_line.h). K = 128 and 512 hold each of them with room to
+// of which nothing is near in fact: on alternating signs, where most cancels, they stay below 4 e m (tests/accel/bounds_test.cpp). The net here is computed within 32 e m (net_line.h). K = 128 and 512 hold each of them with room to
 // spare and cost about one step of the 16 bits.
 #include "accel/kuhn_bounds.h"
 

@@ -130,10 +130,13 @@ std::vector<Question> random_questions(const Spline& spline, const glm::dvec3& c
   while (int(questions.size()) < count) {
     glm::dvec3 u, v;
     glm::ivec3 cell;
+    bool in_face = false;
     for (int a = 0; a < 3; ++a) {
       cell[a] = int(uniform(random) * cells[a]);
-      // Every eighth place is in a face of the cell.
-      u[a] = cell[a] + (uniform(random) < 0.125 ? double(uniform(random) < 0.5) : uniform(random));
+      // Every third place is in a face of the cell; none is in an edge, where gradients may jump.
+      const bool here = !in_face && uniform(random) < 0.125;
+      u[a] = cell[a] + (here ? double(uniform(random) < 0.5) : uniform(random));
+      in_face = in_face || here;
       v[a] = cell[a] + uniform(random);
     }
     std::vector<double> cuts;
