@@ -5,7 +5,8 @@
 
 namespace quincunx::gpu {
 
-std::uint32_t texel_bytes(VkFormat format) { return vk::blockSize(static_cast<vk::Format>(format)); }
+// Of what is no format, the header asserts.
+std::uint32_t texel_bytes(VkFormat format) { return format == VK_FORMAT_UNDEFINED ? 0 : vk::blockSize(static_cast<vk::Format>(format)); }
 
 std::string texel_format_name(VkFormat format) { return vk::to_string(static_cast<vk::Format>(format)); }
 

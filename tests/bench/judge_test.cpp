@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "render/reference.h"
 
@@ -143,17 +144,18 @@ TEST(Judge, ExcusesWhatRoundingMayDecideAndNothingMore) {
 }
 
 TEST(Judge, TakesTheLargestCoefficientNearAPlace) {
-  for (const LatticeKind lattice : {LatticeKind::bcc, LatticeKind::cartesian}) {
+  // The apron tells how far samples reach: of bcc7, of bcc12, on the Cartesian lattice. Four or five cells away one does not.
+  for (const auto& [lattice, apron, away] : {std::tuple{LatticeKind::bcc, 1, 4.5}, {LatticeKind::bcc, 2, 5.5}, {LatticeKind::cartesian, 1, 4.5}}) {
     Coefficients<double> c;
     c.lattice = lattice;
     c.extents = Extents(12);
-    c.apron = 2;
+    c.apron = apron;
     c.data.assign(std::size_t(coset_count(lattice) * c.stride_coset()), 3.0);
     c.data[c.number(0, {6, 6, 6})] = -50.0;
     const double at = 6.0 * lattice_step(lattice);
     EXPECT_EQ(local_magnitude(c, glm::dvec3(at + 0.5), 0.0), 50.0);
     EXPECT_EQ(local_magnitude(c, glm::dvec3(at + 0.5), 1.0), 51.0);
-    EXPECT_EQ(local_magnitude(c, glm::dvec3(at + 4.5), 1.0), 2.0);
+    EXPECT_EQ(local_magnitude(c, glm::dvec3(at + away), 1.0), 2.0);
     EXPECT_EQ(local_magnitude(c, glm::dvec3(0.0), 0.0), 3.0);
   }
 }
