@@ -41,7 +41,7 @@ TEST_P(MagnitudesOf, CoverTheSamplesOfACellAndItsNeighboursAndLittleMore) {
   for (const CoefficientSet& set : coefficient_sets()) {
     const auto& [near, of, least_low, least_high] = GetParam();
     const glm::i64vec3 cells = domain_max(set.c.lattice, set.c.extents);
-    Magnitudes magnitudes, wide(3);
+    Magnitudes magnitudes;
     // In boxes of rows, as tiles ask for them.
     for (std::int64_t k0 = 0; k0 < set.c.extents.z; k0 += 4)
       for (std::int64_t j0 = 0; j0 < set.c.extents.y; j0 += 4) {
