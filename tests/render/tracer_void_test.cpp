@@ -94,7 +94,7 @@ TEST(TracerWithVoids, HitsTheSurfaceBehindAVoidAndIsNotPoisonedBesideIt) {
   for (const std::string_view name : spline_names()) {
     const Emptied e(ramp_with_a_slab(make_spline(name)->lattice()), name);
     for (const Intersect way : {Intersect::exact, Intersect::march})
-      for (const double x : {5.5, 14.0, 17.3}) {  // the slab's weights reach from 6 to 13 (bcc7)
+      for (const double x : {4.5, 14.5, 17.3}) {  // the slab's weights reach from 5 to 14 (bcc8)
         const Tracer tracer(*e.spline, e.coefficients, std::array{x}, nullptr, {way, 0.3}, &e.voids);
         const auto ray = clip_ray(ray_space(e.volume.lattice, e.volume.extents, e.volume.world, {-4.0, 11.3, 12.4}), {1, 0, 0});
         const std::vector<double> found = crossings_of(tracer, *ray);
