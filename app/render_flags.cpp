@@ -101,10 +101,10 @@ void add_method_flags(CLI::App& app, RenderFlags& flags) {
   add_prefilter(app, flags.config.prefilter)->group(group);
   add_precision(app, flags)->group(group);
   add_storage(app, flags.config.storage)->group(group);
-  add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}},
-             "The spline's gradient, or central differences")
+  add_choice(app, "--normal", flags.scene.normal, {{"analytic", Normal::analytic}, {"central", Normal::central}, {"samples", Normal::samples}},
+             "The spline's gradient, central differences of the spline, or of neighbouring samples, interpolated")
       ->group(group);
-  add_number(app, "--delta", flags.scene.delta, {1e-3, 1e2}, "Of central, in cells")->group(group);
+  add_number(app, "--delta", flags.scene.delta, {1e-3, 1e2}, "Of central, in cells")->each([&flags](const std::string&) { flags.delta_given = true; })->group(group);
   add_nan(app, flags.config.nan)->group(group);
   add_skip_flags(app, flags.skip, group);
   const auto pool = [&flags](const std::string& text) { flags.config.pool_bytes = parse_bytes(text, "--pool"); };
@@ -224,6 +224,8 @@ void check_render_flags(const RenderFlags& flags) {
   check_storage(flags.config.storage, flags.config.precision);
   if (flags.config.precision == Precision::float64 && flags.config.pool_bytes)
     throw InputError("--precision: found double with --pool, expected float: bricks hold 32-bit floats");
+  if (flags.scene.normal == Normal::samples && flags.delta_given)
+    throw InputError("--delta: found it with --normal samples, whose differences are those of neighbouring samples; expected --normal central");
   check_camera_flags(flags.camera);
   check_skip_flags(flags.skip);
   check_outputs(flags);

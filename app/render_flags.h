@@ -23,6 +23,7 @@ struct RenderFlags {
   std::vector<double> isovalues, opacities;
   std::vector<glm::dvec3> colors;
   VolumeFlags look;
+  bool delta_given = false;
   double step = 0.0;  ///< cells; 0: 0.25 for surfaces, 1 for volumes
   CameraFlags camera;
   std::optional<Intersect> intersect;  ///< none: what fits device and spline

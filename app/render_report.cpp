@@ -90,7 +90,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   if (scene.volume) json["transfer_function"] = volume_json(*scene.volume);
   json["intersect"] = scene.intersect == Intersect::exact ? "exact" : "march";
   if (scene.intersect == Intersect::march) json["step"] = scene.step;
-  json["normal"] = scene.normal == Normal::analytic ? "analytic" : "central";
+  json["normal"] = normal_name(scene.normal);
   if (scene.normal == Normal::central) json["delta"] = scene.delta;
   json["precision"] = precision_name(stats.precision);
   json["storage"] = stats.storage;

@@ -100,7 +100,8 @@ void DeviceRenderer::check_bricks(const Scene& scene) const {
   if (!source_ || scene.isosurfaces.empty()) return;
   if (!spline_->polynomial()) throw InputError(fmt::format("--pool: found surfaces whose {} are no polynomials, expected --tf alone or another --spline", pieces_of(*spline_)));
   if (scene.intersect == Intersect::march) throw InputError("--pool: found --intersect march, expected --intersect exact");
-  if (scene.normal == Normal::central) throw InputError("--pool: found --normal central, whose differences reach beyond a brick; expected --normal analytic");
+  if (scene.normal != Normal::analytic)
+    throw InputError(fmt::format("--pool: found --normal {}, whose differences reach beyond a brick; expected --normal analytic", normal_name(scene.normal)));
 }
 
 KernelVariant DeviceRenderer::variant(const Request& request) const {
@@ -113,7 +114,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.structure_shader = structure->shader();
   v.cell_test = request.skip.cell_test && request.skip.structure != "none";
   v.intersect = request.scene.intersect;
-  v.normal = request.scene.normal;
+  v.normal = request.scene.normal == Normal::analytic ? Normal::analytic : Normal::central;
   v.surfaces = !surfaces.empty();
   v.many_isovalues = surfaces.size() > 1;
   v.composite = std::any_of(surfaces.begin(), surfaces.end(), [&](const Isosurface& s) { return s.opacity < 1.0 || request.scene.volume || source_; });
@@ -150,6 +151,7 @@ std::vector<Feature> DeviceRenderer::explain(const Request& request) {
   const std::string label = completed.skip.structure == "none" ? "none" : fmt::format("{}, blocks of {} cells", skip_label(completed.skip), completed.skip.block);
   for (Feature& feature : features) {
     if (feature.name == kSkipPart && !choice.why.empty()) feature.why = fmt::format("{}: {}", label, choice.why);
+    if (feature.name == kDifferencesPart && feature.compiled) feature.why = fmt::format("--normal {}", normal_name(request.scene.normal));
     if (feature.name == kExactPart && !spline_->polynomial()) feature.why = fmt::format("{} are no polynomials", pieces_of(*spline_));
   }
   const Spline::Prefilter prefilter = spline_->filter(config_.prefilter).kind;

@@ -16,7 +16,7 @@ struct KernelVariant {
   std::string structure_shader = "skip_none.glsl";
   bool cell_test = false;
   Intersect intersect = Intersect::exact;
-  Normal normal = Normal::analytic;
+  Normal normal = Normal::analytic;  ///< samples are central differences with another step: not told apart here
   bool surfaces = true;         ///< there are isosurfaces
   bool many_isovalues = false;  ///< more than one
   bool composite = false;       ///< a surface lets something through
@@ -46,8 +46,9 @@ std::vector<Pass> passes(const KernelVariant& variant);
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
 
-/// The parts that are the skipping structure, and first roots of polynomials.
+/// The parts that are the skipping structure, first roots of polynomials, and normals of differences.
 inline constexpr const char* kSkipPart = "skipping structure";
+inline constexpr const char* kDifferencesPart = "central differences";
 inline constexpr const char* kExactPart = "exact intersection";
 
 /// A part of the table, as it stands in the SPIR-V: the name of a function or of a buffer that is there exactly if the

@@ -92,7 +92,7 @@ class Painter {
   glm::dvec3 normal_at(const glm::dvec3& u, const glm::dvec3& direction) const {
     const glm::dvec3 gradient = scene_.normal == Normal::analytic
                                     ? spline_.evaluate(coefficients_, u).gradient
-                                    : central_difference(spline_, coefficients_, u, scene_.delta);
+                                    : central_difference(spline_, coefficients_, u, difference_step(scene_, coefficients_.lattice));
     return facing_normal(coefficients_.world.gradient_to_world(gradient), direction);
   }
 

@@ -65,6 +65,17 @@ double cell_length(const World& world) {
   return std::min({glm::length(world.axes[0]), glm::length(world.axes[1]), glm::length(world.axes[2])});
 }
 
+std::string_view normal_name(Normal normal) {
+  switch (normal) {
+    case Normal::analytic: return "analytic";
+    case Normal::central: return "central";
+    case Normal::samples: return "samples";
+  }
+  return "";
+}
+
+double difference_step(const Scene& scene, LatticeKind lattice) { return scene.normal == Normal::samples ? lattice_step(lattice) : scene.delta; }
+
 std::vector<Isosurface> visible_surfaces(const Scene& scene) {
   std::vector<Isosurface> surfaces = scene.isosurfaces;
   std::erase_if(surfaces, [](const Isosurface& s) { return s.opacity == 0.0; });

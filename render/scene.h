@@ -5,8 +5,10 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "lattice/lattice.h"
 #include "render/camera.h"
 #include "render/transfer_function.h"
 
@@ -44,7 +46,11 @@ struct DirectVolume {
 double cell_length(const World& world);
 
 enum class Intersect { exact, march };
-enum class Normal { analytic, central };
+/// Of a surface: the spline's gradient; central differences of the spline, half a step `delta` away; or the classical way, central differences of the
+/// coefficients along the axes of a coset, one sample to either side, interpolated by the spline. The last are the central differences of the spline with
+/// half a step of the lattice's (2 cells BCC, 1 Cartesian): sum_j M(u - j) (c_{j+e} - c_{j-e}) / 2h = (s(u + e) - s(u - e)) / 2h, |e| = h. Both kinds of
+/// differences end at the domain's border, where they are shorter.
+enum class Normal { analytic, central, samples };
 
 /// A picture to make.
 struct Scene {
@@ -64,6 +70,12 @@ struct Scene {
   /// time is that of the traversal. Counts steps and intervals whether `cost` is set or not. Not for the reference caster.
   bool stub_sampling = false;
 };
+
+/// As --normal names them.
+std::string_view normal_name(Normal normal);
+
+/// Half the step of the differences of Normal::central and Normal::samples in a volume on `lattice`, in cells.
+double difference_step(const Scene& scene, LatticeKind lattice);
 
 /// The isosurfaces that leave a trace in the picture (opacity above 0), by ascending isovalue.
 std::vector<Isosurface> visible_surfaces(const Scene& scene);

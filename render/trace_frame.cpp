@@ -123,7 +123,8 @@ TraceParameters trace_parameters(const Scene& scene, const Coefficients<float>& 
   store(normal[2], p.normal_z, p.normal_z_lo);
 
   p.background = narrow(scene.background, scene.ambient);
-  p.march = vec4(high(scene.step), high(scene.delta), low(scene.step), low(scene.delta));
+  const double delta = difference_step(scene, coefficients.lattice);
+  p.march = vec4(high(scene.step), high(delta), low(scene.step), low(delta));
   p.cells = ivec4(glm::ivec3(cells), int(scene.isosurfaces.size()));
   p.strides = ivec4(int(coefficients.stride_y()), int(coefficients.stride_z()), int(coefficients.stride_coset()),
                     int(coefficients.number(0, glm::i64vec3(0))));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/volume_file.h"
 #include "program.h"
 
 namespace quincunx::test {
@@ -64,6 +65,35 @@ TEST(RenderFlags, OutOfRangeAreNamedWithWhatWasFoundAndExpected) {
   for (const char* bad : {"0", "-1", "1.5", "many", "20000"}) {
     EXPECT_THAT(refusal_with({"--size", "8", bad}), AllOf(HasSubstr("--size"), HasSubstr(bad)));
   }
+}
+
+TEST(RenderFlags, OfCentralDifferencesDoNotGoWithSampleDifferences) {
+  EXPECT_EQ(refusal_with({"--normal", "samples"}), "");
+  EXPECT_THAT(refusal_with({"--normal", "samples", "--delta", "0.5"}), AllOf(HasSubstr("--delta: found"), HasSubstr("--normal samples"), HasSubstr("--normal central")));
+}
+
+TEST(RenderFlags, MarchSplinesOfNoPolynomialsUnlessTheReferenceRendersThem) {
+  const TemporaryFolder folder;
+  write_volume(make_volume(LatticeKind::bcc, {4, 4, 4}, {}, [](const glm::dvec3& x) { return x.x + x.y; }), folder / "v.nrrd");
+  const Arguments render{"render", folder / "v.nrrd", "--iso", "5", "--size", "8", "8", "--spline", "cwlb", "--json"};
+  const auto with = [&](const Arguments& more) {
+    Arguments all = render;
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  Outcome outcome = with({});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: pieces of cwlb"), HasSubstr("--intersect march")));
+  EXPECT_THAT(outcome.out, HasSubstr("\"intersect\": \"march\""));
+  outcome = with({"--explain"});
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("pieces of cwlb are no polynomials"), HasSubstr("fixed-step march")));
+  outcome = with({"--device", "cpu"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("note: pieces")));
+  EXPECT_THAT(outcome.out, HasSubstr("\"intersect\": \"exact\""));
+  Arguments exact = render;
+  exact.insert(exact.end(), {"--intersect", "exact"});
+  expect_refused(exact, {"--intersect: found exact", "expected march", "cwlb"});
 }
 
 TEST(RenderFlags, OfUnequalCountAreRefused) {

@@ -133,6 +133,7 @@ TEST(StabilityCommand, NamesWhatItDoesNotKnow) {
   test::expect_refused({"stability", "--groups", "dull"}, {"--groups", "dull", "stiff"});
   test::expect_refused({"stability", "--groups", "flat,flat"}, {"--groups: found flat twice"});
   test::expect_refused({"stability", "--splines", "bcc9"}, {"--splines", "bcc9", "bcc7"});
+  test::expect_refused({"stability", "--splines", "cwlb"}, {"--splines", "cwlb", "no polynomials", "bcc7"});
   test::expect_refused({"stability", "--rays", "0"}, {"--rays"});
   test::expect_refused({"stability", "--device", "cpu"}, {"cpu"});
 }
