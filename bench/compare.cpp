@@ -79,9 +79,10 @@ double parse_between(const std::string& word, std::string_view flag, double low,
   return x;
 }
 
-/// "analytic", or the half-step of central differences in cells.
+/// "analytic", "samples", or the half-step of central differences in cells.
 NormalChoice parse_normal(const std::string& word) {
   if (word == "analytic") return {};
+  if (word == "samples") return {Normal::samples, 0.0};
   return {Normal::central, parse_between(word, "--normals", 1e-3, 1e2)};
 }
 
@@ -99,7 +100,9 @@ CompareSubject make_subject(const CompareFlags& flags, const ComparePreset& pres
     return subject;
   }
   if (!flags.wishes.isovalue) throw InputError("--iso: found no isovalue for a volume, expected one; 'quincunx info VOLUME' shows the range and the quantiles");
-  return volume_subject(name, read_finite_volume(name, bar.stage("reading")), *flags.wishes.isovalue);
+  Volume volume = read_finite_volume(name, bar.stage("reading"));
+  if (preset.reduce == 1.0 || (volume.lattice == LatticeKind::bcc && !flags.wishes.reduce)) return volume_subject(name, std::move(volume), *flags.wishes.isovalue);
+  return reduced_subject(name, volume, *flags.wishes.isovalue, preset.reduce, preset.densities, bar.stage("resampling"));
 }
 
 /// The command line that makes the same again, without what only tells where it goes.
@@ -165,9 +168,11 @@ void add_choices(CLI::App& app, CompareWishes& wishes) {
   add_list<Storage>(app, "--storage", wishes.storages, "F[,F...]", "float32", "Coefficients on the device: float32, float16, unorm16, unorm8", parse_storage);
   add_list<Intersect>(app, "--intersect", wishes.intersects, "I[,I...]", "exact,march", "Ways to the first hit", parse_intersect);
   add_list<double>(app, "--steps", wishes.steps, "X[,X...]", "0.5,0.25,0.125", "Of march, in cells", step);
-  add_list<NormalChoice>(app, "--normals", wishes.normals, "N[,N...]", "analytic", "Gradients: analytic, or the half-step in cells of central differences", parse_normal);
+  add_list<NormalChoice>(app, "--normals", wishes.normals, "N[,N...]", "analytic", "Gradients: analytic, of neighbouring samples (samples), or the half-step in cells of central differences", parse_normal);
   add_list<SkipConfig>(app, "--structures", wishes.skips, "L[,L...]", "auto", fmt::format("Skipping structures: auto, {}", fmt::join(skip_labels(), ", ")), parse_skip);
-  add_list<Density>(app, "--densities", wishes.densities, "D[,D...]", "equal", "BCC samples of a field: as many as Cartesian ones, or sparse, 29.3 % fewer", parse_density);
+  add_list<Density>(app, "--densities", wishes.densities, "D[,D...]", "equal", "BCC samples: as many as Cartesian ones, or sparse, 29.3 % fewer", parse_density);
+  add_parsed(app, "--reduce", [&wishes](const std::string& text) { wishes.reduce = parse_between(text, "--reduce", 1.0, 16.0); }, "X", "2",
+             "A Cartesian volume is the truth, and is resampled by steps X times as long; 1: as it is");
   add_count(app, "--samples", wishes.samples, 8, 1024, "41", "Cartesian samples of a field along each axis");
 }
 
@@ -178,7 +183,7 @@ Command compare_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("compare", "Error against time: splines, ways to the hit, gradients, skipping");
   app->footer(fmt::format(
       "Renders every combination that the lists allow and times them in turns. Errors are told apart: against the double-precision reference of the same spline (what the intersection gets wrong), and,\n"
-      "for an analytic field ({}), against the field itself (what the reconstruction gets wrong too). Writes compare.csv, .json, .md, a page compare.html that needs no network, and compare.svg.",
+      "for an analytic field ({}), or a Cartesian volume that is resampled, against that itself (what the reconstruction gets wrong too). Writes compare.csv, .json, .md, a page compare.html that needs no network, and compare.svg.",
       fmt::join(field_names(), ", ")));
   CompareWishes& wishes = flags->wishes;
   app->add_option("VOLUME", flags->subject, "NRRD file, or the name of a field")->type_name("VOLUME|FIELD");

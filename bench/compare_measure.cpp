@@ -182,12 +182,15 @@ VolumeErrors volume_errors(const CompareSubject& subject, const CompareSetting& 
                            int points, std::uint32_t seed) {
   assert(subject.truth);
   const std::vector<glm::dvec3> places = random_points(subject, points, seed);
+  Scene differences;
+  differences.normal = setting.normal.normal;
+  differences.delta = setting.normal.delta;
   std::vector<double> off(places.size()), slope_squares(places.size()), angles(places.size());
   tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t n) {
     const World& world = coefficients.world;
     const glm::dvec3 u = world.to_lattice(places[n]);
     Jet jet = spline.evaluate(coefficients, u);
-    if (setting.normal.normal == Normal::central) jet.gradient = central_difference(spline, coefficients, u, setting.normal.delta);
+    if (differences.normal != Normal::analytic) jet.gradient = central_difference(spline, coefficients, u, difference_step(differences, coefficients.lattice));
     const Jet truth = subject.truth->at(places[n]);
     const glm::dvec3 gradient = world.gradient_to_world(jet.gradient), difference = gradient - truth.gradient;
     off[n] = std::abs(jet.value - truth.value);

@@ -35,7 +35,7 @@ ComparePreset compare_preset(std::string_view name) {
   preset.plan.first = {30.0, 60.0, 1.2};  // upon the ripples
   if (name == "table3") {
     preset.choices.intersects = {Intersect::exact};
-    preset.choices.normals = {NormalChoice{}, {Normal::central, 0.01}, {Normal::central, 0.1}, {Normal::central, 0.5}, {Normal::central, 1.0}, {Normal::central, 2.0}};
+    preset.choices.normals = {NormalChoice{}, {Normal::central, 0.01}, {Normal::central, 0.1}, {Normal::central, 0.5}, {Normal::central, 1.0}, {Normal::samples, 0.0}};
     preset.choices.splines = listed({"bcc7", "bcc8", "bcc12", "tricubic", "trilinear"});
   } else if (name == "table5") {
     preset.choices.normals = {NormalChoice{}, {Normal::central, 0.5}};
@@ -57,6 +57,7 @@ ComparePreset with_wishes(ComparePreset preset, const CompareWishes& wishes) {
   take(wishes.views, preset.plan.views);
   take(wishes.rounds, preset.plan.rounds);
   take(wishes.points, preset.plan.points);
+  take(wishes.reduce, preset.reduce);
   take(wishes.azimuth, preset.plan.first.azimuth);
   take(wishes.elevation, preset.plan.first.elevation);
   take(wishes.zoom, preset.plan.first.zoom);

@@ -17,6 +17,7 @@ namespace quincunx {
 struct ComparePreset {
   std::string field;  ///< empty: it has to be named
   int samples = 41;   ///< Cartesian ones of a field along each axis
+  double reduce = 2.0;  ///< of a Cartesian volume: how many times as long the steps become; 1: it is compared on as it is
   std::vector<Density> densities{Density::equal};
   CompareChoices choices;
   ComparePlan plan;   ///< settings are left open
@@ -34,7 +35,7 @@ struct CompareWishes {
   std::optional<std::vector<Density>> densities;
   std::optional<int> samples, views, rounds, points;
   std::optional<glm::ivec2> size;
-  std::optional<double> azimuth, elevation, zoom;
+  std::optional<double> reduce, azimuth, elevation, zoom;
   std::optional<double> isovalue;
   std::string error;
 };

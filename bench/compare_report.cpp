@@ -52,7 +52,7 @@ std::uint64_t sample_count(const Volume& volume) {
 }
 
 CompareSection volumes_section(const CompareReport& report) {
-  CompareSection section{"What was sampled", "step: the world length of one lattice coordinate, beside that of the first volume.",
+  CompareSection section{"What was sampled", fmt::format("step: the world length of one lattice coordinate, beside that of the first volume{}.", report.subject->made.empty() ? "" : "; " + report.subject->made),
                          {.headings = {"volume", "lattice", "dimensions", "samples", "step"}, .rows = {}, .left = 3}};
   const std::vector<CompareVolume>& volumes = report.subject->volumes;
   for (const CompareVolume& v : volumes)
@@ -192,8 +192,8 @@ std::string compare_csv(const CompareReport& report) {
     const CompareVolume& v = report.subject->volumes[s.volume];
     const Spread ms = spread(line.frame_ms);
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", s.spline, csv_text(v.name), lattice_name(v.volume.lattice), s.prefilter_text(), storage_name(s.storage),
-                       s.intersect == Intersect::exact ? "exact" : "march", s.step, s.normal.normal == Normal::analytic ? "analytic" : "central",
-                       s.normal.normal == Normal::analytic ? 0.0 : s.normal.delta, skip_label(s.skip), ms.median, ms.p5, ms.p95, line.coefficient_bytes, hits(line.reference), line.image_rmse, line.ssim);
+                       s.intersect == Intersect::exact ? "exact" : "march", s.step, s.normal.normal == Normal::central ? "central" : s.normal.label(),
+                       s.normal.normal == Normal::central ? s.normal.delta : 0.0, skip_label(s.skip), ms.median, ms.p5, ms.p95, line.coefficient_bytes, hits(line.reference), line.image_rmse, line.ssim);
     csv += line.truth ? "," + hits(*line.truth) : std::string(",,,,,,,,,");
     csv += line.volume ? fmt::format(",{},{},{},{},{}", line.volume->value_rmse, line.volume->value_max, line.volume->gradient_rmse, line.volume->angle_rms, line.volume->angle_p99)
                        : std::string(",,,,,");

@@ -39,7 +39,7 @@ std::vector<std::pair<Intersect, double>> ways(const CompareChoices& choices, co
 
 }  // namespace
 
-std::string NormalChoice::label() const { return normal == Normal::analytic ? "analytic" : fmt::format("central {}", delta); }
+std::string NormalChoice::label() const { return normal == Normal::analytic ? "analytic" : normal == Normal::samples ? "samples" : fmt::format("central {}", delta); }
 
 bool CompareSetting::same_spline(const CompareSetting& other) const {
   return volume == other.volume && spline == other.spline && prefilter == other.prefilter;
@@ -68,7 +68,7 @@ Renderer::Request CompareSetting::applied(Renderer::Request request) const {
   request.scene.intersect = intersect;
   if (intersect == Intersect::march) request.scene.step = step;
   request.scene.normal = normal.normal;
-  if (normal.normal != Normal::analytic) request.scene.delta = normal.delta;
+  if (normal.normal == Normal::central) request.scene.delta = normal.delta;
   request.skip = skip;
   return request;
 }

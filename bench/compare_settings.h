@@ -16,7 +16,7 @@ struct NormalChoice {
   double delta = 0.5;  ///< of Normal::central, in cells
 
   bool operator==(const NormalChoice&) const = default;
-  /// "analytic", "central 0.5".
+  /// "analytic", "central 0.5", "samples".
   std::string label() const;
 };
 

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "lattice/error.h"
+#include "lattice/low_pass.h"
+#include "lattice/target_grid.h"
 #include "render/scene.h"
+#include "spline/spline_samples.h"
 
 namespace quincunx {
 namespace {
@@ -15,6 +19,15 @@ namespace {
 constexpr double kBorder = 5.0;
 /// Of a Cartesian step, at which a field is looked at along a ray.
 constexpr double kFieldStep = 1.0 / 16.0;
+
+constexpr std::int64_t kLeastReduced = 16;
+
+/// The volume without what the grid cannot hold, on the grid.
+Volume reduced(const Volume& volume, const TargetGrid& grid, const Progress& progress) {
+  const glm::dvec3 cutoff = glm::min(band_limit(grid.lattice) / relative_steps(grid, volume.world), glm::dvec3(band_limit(volume.lattice)));
+  const auto spline = make_spline("tricubic", volume.lattice);
+  return spline_samples(*spline, spline->coefficients(low_pass(volume, cutoff, progress), Spline::Prefilter::iir), grid, SampleType::float32, progress);
+}
 
 }  // namespace
 
@@ -48,6 +61,28 @@ CompareSubject field_subject(std::unique_ptr<Field> field, int samples, const st
   }
   subject.field = std::move(field);
   subject.truth = field_continuum(*subject.field, kFieldStep * subject.cell);
+  return subject;
+}
+
+CompareSubject reduced_subject(std::string name, const Volume& volume, double isovalue, double reduce, const std::vector<Density>& densities, const Progress& progress) {
+  if (volume.lattice != LatticeKind::cartesian) throw InputError(fmt::format("--reduce: found {} on the bcc lattice, expected a Cartesian volume", name));
+  const Extents extents = glm::i64vec3(glm::round(glm::dvec3(volume.extents - std::int64_t(1)) / reduce)) + std::int64_t(1);
+  if (std::min(extents.x, std::min(extents.y, extents.z)) < kLeastReduced)
+    throw InputError(fmt::format("--reduce: found {}, which leaves {} x {} x {} samples, expected at least {} along each axis", reduce, extents.x, extents.y, extents.z, kLeastReduced));
+  CompareSubject subject;
+  subject.name = std::move(name);
+  subject.isovalue = isovalue;
+  subject.border = kBorder;
+  subject.truth = spline_continuum(volume, "tricubic", Spline::Prefilter::iir, progress);
+  const TargetGrid cartesian = grid_of_extents(volume, LatticeKind::cartesian, extents);
+  const std::uint64_t count = std::uint64_t(extents.x * extents.y * extents.z);
+  subject.cell = cell_length(cartesian.world);
+  subject.volumes.push_back({"cartesian", reduced(volume, cartesian, progress)});
+  for (const Density density : densities) {
+    const TargetGrid bcc = grid_of_count(volume, LatticeKind::bcc, density == Density::equal ? count : std::uint64_t(double(count) * std::sqrt(0.5)));
+    subject.volumes.push_back({density == Density::equal ? "bcc" : "bcc sparse", reduced(volume, bcc, progress)});
+  }
+  subject.made = fmt::format("made of {} x {} x {} samples by the tricubic spline after a low-pass", volume.extents.x, volume.extents.y, volume.extents.z);
   return subject;
 }
 

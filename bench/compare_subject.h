@@ -33,6 +33,7 @@ struct CompareSubject {
   std::unique_ptr<Continuum> truth;  ///< null: not known
   double isovalue = 0.0;
   double cell = 0.0;  ///< world length in which depths are told: the Cartesian step, or that of the only volume
+  std::string made;     ///< how the volumes were made, a clause; empty where they are as they were
   double border = 0.0;  ///< cells from the faces of the domain within which reconstructions are not compared with the truth
 
   /// Whether x (world) is inside every volume's domain, farther than the border from its faces.
@@ -42,6 +43,11 @@ struct CompareSubject {
 /// A field sampled on [-1,1]^3: `samples` Cartesian ones along each axis, and as many or fewer BCC ones; the nearest number of them whose
 /// domain is the cube too. Throws InputError unless 8 <= samples <= 1024.
 CompareSubject field_subject(std::unique_ptr<Field> field, int samples, const std::vector<Density>& densities, const Progress& progress = {});
+
+/// A Cartesian volume as the truth (its tricubic spline that takes the samples), and what is left of it on coarser lattices: a Cartesian one whose steps
+/// are about `reduce` times as long, and BCC ones of as many samples or fewer; each made of the spline of the low-passed volume, the cut-off being what a
+/// Cartesian lattice of as many samples holds. Throws InputError unless `volume` is Cartesian, of 16 samples along each axis of the coarser lattice at least.
+CompareSubject reduced_subject(std::string name, const Volume& volume, double isovalue, double reduce, const std::vector<Density>& densities, const Progress& progress = {});
 
 /// A volume as it is, with no truth but its own splines.
 CompareSubject volume_subject(std::string name, Volume volume, double isovalue);

@@ -60,6 +60,34 @@ TEST(CompareSubject, HasAsManyOrFewerBccSamplesOnTheSameCube) {
   EXPECT_FALSE(subject.inside(glm::dvec3(0.0, 0.0, 0.9)));  // five steps of 0.025
 }
 
+TEST(CompareSubject, TakesACartesianVolumeAsTheTruthOfCoarserOnesOfEqualDensity) {
+  // So smooth that nothing is lost to the low-pass, and little to the coarser lattices.
+  const auto f = [](const glm::dvec3& x) { return std::sin(0.2 * x.x) * std::cos(0.15 * x.y) + 0.01 * x.z; };
+  const World world{.origin = {1.0, 2.0, 3.0}, .axes = glm::dmat3(1.0)};
+  const Volume volume = test::make_volume(LatticeKind::cartesian, {65, 49, 41}, world, f);
+  const CompareSubject subject = reduced_subject("smooth", volume, 0.2, 2.0, {Density::equal, Density::sparse});
+  ASSERT_EQ(subject.volumes.size(), 3u);
+  EXPECT_EQ(subject.volumes[0].volume.extents, Extents(33, 25, 21));
+  EXPECT_DOUBLE_EQ(subject.cell, 2.0);
+  const auto count = [&](std::size_t n) {
+    const Volume& v = subject.volumes[n].volume;
+    return double(coset_count(v.lattice)) * double(v.extents.x * v.extents.y * v.extents.z);
+  };
+  EXPECT_NEAR(count(1) / count(0), 1.0, 0.1);
+  EXPECT_NEAR(count(2) / count(0), std::sqrt(0.5), 0.1);
+  const glm::dvec3 x(30.3, 25.7, 20.1);
+  EXPECT_NEAR(subject.truth->at(x).value, f(x), 1e-4);
+  for (const char* name : {"tricubic", "bcc7"}) {
+    const auto spline = make_spline(name);
+    CompareSetting setting;
+    setting.volume = spline->lattice() == LatticeKind::cartesian ? 0 : 1;
+    const VolumeErrors e = volume_errors(subject, setting, *spline, spline->coefficients(subject.volumes[setting.volume].volume, Spline::Prefilter::automatic), 1000, 1);
+    EXPECT_LT(e.value_max, 2e-3) << name;
+    EXPECT_GT(e.value_max, 1e-7) << name;
+  }
+  EXPECT_THROW(reduced_subject("coarse", volume, 0.2, 4.0, {Density::equal}), InputError);
+}
+
 TEST(CompareSettings, CombineWhatEachSplineHasOnTheVolumesOfItsLattice) {
   const CompareSubject subject = small_subject();
   CompareChoices choices;
@@ -235,6 +263,8 @@ TEST_F(CompareProgram, RefusesWhatItCannotCompareAndWritesNothing) {
   expect_refused(compare({"--splines", "bcc9"}), {"bcc9", "bcc7"});
   expect_refused(compare({"--splines", "bcc7,bcc7"}), {"--splines: found bcc7 twice"});
   expect_refused(compare({"--storage", "float64"}), {"--storage", "float64", "unorm8"});
+  expect_refused(compare({"--reduce", "0.5"}), {"--reduce", "0.5", "16"});
+  expect_refused({"compare", QUINCUNX_SOURCE_DIR "/data/neghip_bcc.nrrd", "--iso", "40", "--reduce", "2", "-o", out}, {"--reduce", "bcc", "Cartesian"});
   expect_refused(compare({"--steps", "0"}), {"--steps", "0.001"});
   expect_refused(compare({"--normals", "flat"}), {"--normals", "flat"});
   expect_refused(compare({"--preset", "table9"}), {"--preset", "table9", "table3"});

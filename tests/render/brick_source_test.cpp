@@ -72,7 +72,7 @@ TEST(BrickSource, BricksOfSamplesAndOfCoefficientsAreTheWholeVolumesBitForBit) {
   int type = 0;
   for (const std::string_view name : spline_names()) {
     const auto spline = make_spline(name);
-    for (const auto& [prefilter, reach, gain] : spline->filters())
+    for (const auto& [prefilter, reach, gain, order] : spline->filters())
       // No multiples of the bricks, just multiples, one sample on one axis and on all.
       for (const Extents& extents : {Extents(13, 7, 10), Extents(9, 5, 17), Extents(11, 1, 6), Extents(1, 1, 1)})
         for (const int edge : {4, 8}) {
