@@ -84,11 +84,11 @@ Renderer::Request view_of(const AdversarialVolume& c, const Volume& volume, int 
 double cell_of(const World& world) { return std::cbrt(std::abs(glm::determinant(world.axes))); }
 
 TEST_F(DevicePrecisionTest, DoublesHitWhereTheReferenceHitsToTheLastBitOfADepth) {
-  for (const std::string spline : {"bcc7", "trilinear", "tricubic"}) {
+  for (const std::string spline : {"bcc4", "bcc7", "bcc8", "trilinear", "tricubic"}) {
     Agreement all;
     int view = 0;
     for (const AdversarialVolume& c : adversarial_volumes()) {
-      const Volume volume = spline == "bcc7" ? c.volume : cartesian_twin(c.volume);
+      const Volume volume = make_spline(spline)->lattice() == LatticeKind::bcc ? c.volume : cartesian_twin(c.volume);
       const Renderer::Request request = view_of(c, volume, view++ % 3, 64);
       const Agreement a = agreement(picture_of(volume, request, Precision::float64, spline), truth_of(volume, request.scene, spline), cell_of(volume.world));
       print(spline + ", " + c.name, a);
