@@ -206,6 +206,7 @@ Command compare_command(CLI::App& program) {
   add_count(*app, "--orbit", wishes.views, 1, 360, "1", "Views around the volume");
   add_count(*app, "--rounds", wishes.rounds, 1, 1000, "5", "Timed frames of each combination and view");
   add_count(*app, "--points", wishes.points, 1, 10000000, "20000", "Random points where values and gradients are compared");
+  add_count(*app, "--seed", wishes.seed, 0, 1000000000, "1", "Of these points");
   add_device(*app, flags->device);
   app->add_flag("--json", flags->json, "Print compare.json");
   app->add_flag("--markdown", flags->markdown, "Print the tables as Markdown");

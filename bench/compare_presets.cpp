@@ -57,6 +57,7 @@ ComparePreset with_wishes(ComparePreset preset, const CompareWishes& wishes) {
   take(wishes.views, preset.plan.views);
   take(wishes.rounds, preset.plan.rounds);
   take(wishes.points, preset.plan.points);
+  if (wishes.seed) preset.plan.seed = std::uint32_t(*wishes.seed);
   take(wishes.reduce, preset.reduce);
   take(wishes.azimuth, preset.plan.first.azimuth);
   take(wishes.elevation, preset.plan.first.elevation);

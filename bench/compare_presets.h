@@ -33,7 +33,7 @@ struct CompareWishes {
   std::optional<std::vector<NormalChoice>> normals;
   std::optional<std::vector<SkipConfig>> skips;
   std::optional<std::vector<Density>> densities;
-  std::optional<int> samples, views, rounds, points;
+  std::optional<int> samples, views, rounds, points, seed;
   std::optional<glm::ivec2> size;
   std::optional<double> reduce, azimuth, elevation, zoom;
   std::optional<double> isovalue;
