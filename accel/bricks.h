@@ -18,7 +18,7 @@ namespace quincunx {
 ///
 /// Brick (x,y,z) has the cells b*edge <= cell < (b+1)*edge on every axis, the last one of an axis perhaps fewer. Its slot holds, of
 /// every coset, `samples` coefficients an axis beginning with first_index(): those that the spline reaches from any of its cells
-/// (shaders/bcc7.glsl: one further than the corners of a cell). No evaluation needs two bricks.
+/// (`apron` further than the corners of a cell). No evaluation needs two bricks.
 ///
 ///   cartesian  corners b*edge .. (b+1)*edge:      edge + 1 + 2 apron
 ///   bcc        even corners at half of that:    edge/2 + 1 + 2 apron, odd ones at one less, whose last is never read
