@@ -13,9 +13,9 @@
 //
 //   c1   c1 + (c2 - c0)/6   c2 - (c3 - c1)/6   c2.
 //
-// The last of them is the first of the next cell, so nets are rows of 1, 3 or 4 points a cell. [lo, hi] is the net's range over the cell, w = hi - lo; W is the width of the range of the
-// coefficients that reach the cell or one of its 26 neighbours, m the largest |coefficient| among these; e and d as in
-// bounds.cpp. The margins on either side are
+// The last of them is the first of the next cell, so nets are rows of 1, 3 or 4 points a cell. [lo, hi] is the net's
+// range over the cell, w = hi - lo; W is the width of the range of the coefficients that reach the cell or one of its
+// 26 neighbours, m the largest |coefficient| among these; e and d as in bounds.cpp. The margins on either side are
 //
 //   trilinear      (1 + 2d)^2 W d              +  256 e m  +  tiny
 //   triquadratic   4 w d  +   4 W d^2          +  256 e m  +  tiny
