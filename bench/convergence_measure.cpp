@@ -9,6 +9,9 @@
 namespace quincunx {
 namespace {
 
+/// World units from the faces of the cube: on the coarsest grid far enough that the border changes nothing but a 2000th of an interpolation's part there.
+constexpr double kBorder = 0.5;
+
 /// Volume number 0 of a field_subject is Cartesian, number 1 BCC.
 std::size_t volume_of(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? 0 : 1; }
 
@@ -35,7 +38,8 @@ std::vector<ConvergenceLine> measure_convergence(const ConvergencePlan& plan, co
   const double all = double(plan.samples.size() * lines.size());
   double done = 0.0;
   for (const int samples : plan.samples) {
-    const CompareSubject subject = field_subject(make_field(plan.field), samples, {Density::equal});
+    CompareSubject subject = field_subject(make_field(plan.field), samples, {Density::equal});
+    subject.border = kBorder / subject.cell;
     for (ConvergenceLine& line : lines) {
       report(progress, done++ / all);
       const auto spline = make_spline(line.spline);
@@ -71,7 +75,7 @@ Table convergence_table(const ConvergencePlan& plan, const std::vector<Convergen
 
 std::string convergence_caption(const ConvergencePlan& plan) {
   return fmt::format(
-      "{}, roots of the mean squares over {} random points away from the border (seed {}); BCC volumes have as many samples as the Cartesian ones. order: between the last two spacings. theory: the order of "
+      "{}, roots of the mean squares over {} random points of the cube [-0.5,0.5]^3 (seed {}); BCC volumes have as many samples as the Cartesian ones. order: between the last two spacings. theory: the order of "
       "the prefiltered spline, of gradients one less than that of its space.",
       plan.field, plan.points, plan.seed);
 }

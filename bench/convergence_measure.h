@@ -12,7 +12,7 @@
 namespace quincunx {
 
 struct ConvergencePlan {
-  std::string field = "gyroid";
+  std::string field = "waves";
   std::vector<std::string> splines;
   std::vector<int> samples{25, 37, 55, 82};  ///< Cartesian ones along each axis, ascending; as many BCC ones in all
   int points = 20000;

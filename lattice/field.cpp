@@ -89,6 +89,22 @@ class Gyroid final : public Field {
   static constexpr double k = 2.0 * pi;
 };
 
+/// sin(5x + 2y) cos(4y - 3z + 0.3): waves along two directions in which no lattice is like itself.
+class Waves final : public Field {
+ public:
+  std::string_view name() const override { return "waves"; }
+  double value(const dvec3& x) const override { return std::sin(first(x)) * std::cos(second(x)); }
+  dvec3 gradient(const dvec3& x) const override {
+    const double along_first = std::cos(first(x)) * std::cos(second(x)), along_second = -std::sin(first(x)) * std::sin(second(x));
+    return {5.0 * along_first, 2.0 * along_first + 4.0 * along_second, -3.0 * along_second};
+  }
+  double isovalue() const override { return 0.0; }
+
+ private:
+  static double first(const dvec3& x) { return 5.0 * x.x + 2.0 * x.y; }
+  static double second(const dvec3& x) { return 4.0 * x.y - 3.0 * x.z + 0.3; }
+};
+
 /// sum of a_ijk x^i y^j z^k over i + j + k <= 4, every a_ijk uniform in [-1,1].
 class Quartic final : public Field {
  public:
@@ -135,7 +151,7 @@ class Quartic final : public Field {
 }  // namespace
 
 const std::vector<std::string_view>& field_names() {
-  static const std::vector<std::string_view> names{"marschner-lobb", "sphere", "torus", "gyroid", "quartic"};
+  static const std::vector<std::string_view> names{"marschner-lobb", "sphere", "torus", "gyroid", "waves", "quartic"};
   return names;
 }
 
@@ -144,6 +160,7 @@ std::unique_ptr<Field> make_field(std::string_view name, unsigned seed) {
   if (name == "sphere") return std::make_unique<Sphere>();
   if (name == "torus") return std::make_unique<Torus>();
   if (name == "gyroid") return std::make_unique<Gyroid>();
+  if (name == "waves") return std::make_unique<Waves>();
   if (name == "quartic") return std::make_unique<Quartic>(seed);
   throw InputError(fmt::format("unknown field '{}', expected one of {}", name, fmt::join(field_names(), ", ")));
 }

@@ -22,7 +22,7 @@ class Field {
   virtual double isovalue() const = 0;
 };
 
-/// The names make_field knows: marschner-lobb, sphere, torus, gyroid, quartic.
+/// The names make_field knows: marschner-lobb, sphere, torus, gyroid, waves, quartic.
 const std::vector<std::string_view>& field_names();
 
 /// The field of that name; `seed` chooses the coefficients of `quartic`. Throws InputError naming the choices.
@@ -31,6 +31,7 @@ const std::vector<std::string_view>& field_names();
 ///   sphere          0.8^2 - |x|^2; isovalue 0
 ///   torus           the quartic 4 R^2 (x^2 + y^2) - (|x|^2 + R^2 - r^2)^2, R = 0.6, r = 0.25; isovalue 0
 ///   gyroid          sin cos + sin cos + sin cos, two periods across the cube; isovalue 0
+///   waves           sin(5x + 2y) cos(4y - 3z + 0.3); isovalue 0
 ///   quartic         a random polynomial of total degree 4, coefficients uniform in [-1,1]
 std::unique_ptr<Field> make_field(std::string_view name, unsigned seed = 1);
 

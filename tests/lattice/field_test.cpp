@@ -18,7 +18,7 @@ glm::dvec3 random_point(std::mt19937& random) {
 }
 
 TEST(Field, EveryNameOfTheListIsMadeAndKnowsItsName) {
-  EXPECT_THAT(field_names(), testing::ElementsAre("marschner-lobb", "sphere", "torus", "gyroid", "quartic"));
+  EXPECT_THAT(field_names(), testing::ElementsAre("marschner-lobb", "sphere", "torus", "gyroid", "waves", "quartic"));
   for (const std::string_view name : field_names()) EXPECT_EQ(make_field(name)->name(), name);
 }
 
