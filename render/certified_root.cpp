@@ -7,7 +7,13 @@
 namespace quincunx {
 namespace {
 
-constexpr double kLeastStep = 0x1p-43;
+constexpr double kLeastStep = 0x1p-43, kFlatStep = 0x1p-13;
+
+/// The shortest step: longer where neither value nor slope is told from 0.
+double least_step(const ValueAndSlope& g, double rounding) {
+  const double flat = 4.0 * rounding;
+  return std::abs(g.value) <= flat && std::abs(g.slope) * kFlatStep <= flat ? kFlatStep : kLeastStep;
+}
 
 /// How far from a place the function certainly keeps its side.
 double safe_step(const ValueAndSlope& g, double curvature) {
@@ -19,13 +25,13 @@ double safe_step(const ValueAndSlope& g, double curvature) {
 
 }  // namespace
 
-void append_crossings(const std::function<ValueAndSlope(double)>& g, double curvature, double end, bool& above, std::vector<double>& t) {
+void append_crossings(const std::function<ValueAndSlope(double)>& g, double curvature, double rounding, double end, bool& above, std::vector<double>& t) {
   for (double x = 0.0;;) {
     const ValueAndSlope here = g(x);
     if ((here.value >= 0.0) != above) t.push_back(x);
     above = here.value >= 0.0;
     if (x >= end) return;
-    x = std::min(x + std::max(safe_step(here, curvature), kLeastStep), end);
+    x = std::min(x + std::max(safe_step(here, curvature), least_step(here, rounding)), end);
   }
 }
 

@@ -45,12 +45,12 @@ Tracer::Tracer(const Spline& spline, const Coefficients<double>& coefficients, s
       far_(domain_max(coefficients.lattice, coefficients.extents)),
       cells_(glm::max(glm::ivec3(far_), glm::ivec3(1))),
       isovalues_(isovalues.begin(), isovalues.end()),
+      rounding_(value_rounding(coefficients)),
       voids_(voids && voids->count > 0 ? voids : nullptr) {
   assert(spline.lattice() == coefficients.lattice && spline.apron() <= coefficients.apron);
   assert(spline.degree() <= kMaxDegree);
   assert(std::is_sorted(isovalues_.begin(), isovalues_.end()));
-  const double rounding = value_rounding(coefficients);
-  for (double& isovalue : isovalues_) isovalue -= rounding;
+  for (double& isovalue : isovalues_) isovalue -= rounding_;
   if (cells == nullptr) return;
   assert(cells->cells == glm::i64vec3(cells_));
   levels_ = classify(block_bounds(*cells, 1), *cells, ranges_of(isovalues_));
@@ -139,7 +139,7 @@ bool Tracer::cross_smooth_cell(const LatticeRay& ray, const CellWalk& walk, int&
     };
     bool above = k < level;
     work.roots.clear();
-    append_crossings(less, curvature, length, above, work.roots);
+    append_crossings(less, curvature, rounding_, length, above, work.roots);
     for (const double t : work.roots) work.crossings.push_back({walk.enter() + t, k});
     above_count += above;
   }

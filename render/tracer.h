@@ -84,6 +84,7 @@ class Tracer {
   glm::dvec3 far_;
   glm::ivec3 cells_;
   std::vector<double> isovalues_;
+  double rounding_;  ///< of values; isovalues_ are lower by it
   const VoidCells* voids_;
   Classification levels_;  ///< of single cells; empty where nothing is skipped
 };
