@@ -11,5 +11,6 @@ for preset in marschner-lobb table3 table5; do
   echo "== $preset" >&2
   quincunx compare --preset "$preset" -o "$out/$preset" --quiet
 done
+quincunx compare ../shared/data/mri_head.nrrd --iso 130 --azimuth 55 --elevation 12 --intersect exact -o "$out/mri_head" --quiet
 quincunx-bench convergence --markdown --json "$out/convergence.json" >"$out/convergence.md"
 echo "$out" >&2
