@@ -1,4 +1,4 @@
-// Of splines whose cells are one polynomial piece each.
+// Of splines whose cells are one piece each.
 #define SPLINE_CUTS 0
 
 struct AxisOrder {
