@@ -16,7 +16,8 @@ double band_limit(LatticeKind lattice);
 /// The volume's samples, extended by clamping each index of each coset, convolved along each axis with a sinc of the cut-off, half of which is let
 /// through, in a Kaiser window of beta = 6 and 6 of its zeros on either side: from 1.35 times the cut-off on less than 1/1000 is. `cutoff`:
 /// cycles per lattice coordinate, above 0 each; axes whose cut-off is infinite are left as they are (Cartesian volumes only: on the BCC lattice a
-/// sample is a sum over both cosets, and all three are finite). The weights sum to 1. The result is of float samples, with the same notes.
+/// sample is a sum over both cosets, and all three are finite). The weights sum to 1, and some are negative: beside sharp edges the result
+/// rings, by a tenth of their height. The result is of float samples, with the same notes.
 /// Throws InputError where samples are not finite.
 Volume low_pass(const Volume& volume, const glm::dvec3& cutoff, const Progress& progress = {});
 
