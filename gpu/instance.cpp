@@ -1,7 +1,9 @@
 #include "gpu/instance.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 
 #include "gpu/check.h"
 #include "gpu/error.h"
@@ -105,10 +107,12 @@ std::unique_ptr<Instance> create_instance(Validation validation) {
   info.pApplicationInfo = &application;
 
   const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
-  const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  // GPU-assisted: kernels are given checks of what they index, of descriptors and of device addresses.
+  const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT, VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
+                                                  VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT};
   VkValidationFeaturesEXT layer_features{};
   layer_features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  layer_features.enabledValidationFeatureCount = 1;
+  layer_features.enabledValidationFeatureCount = std::uint32_t(std::size(enables));
   layer_features.pEnabledValidationFeatures = enables;
   VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(*instance);
   messenger.pNext = &layer_features;

@@ -40,6 +40,17 @@ TEST(Validation, MissingBarriersAreSeen) {
   EXPECT_THAT(validation_messages(*device), Contains(::testing::ContainsRegex("SYNC-HAZARD-WRITE.AFTER.WRITE")));
 }
 
+TEST(Validation, AKernelThatWritesBeyondABufferIsSeenWhereTheLayerCanInstrumentIt) {
+  const TemporaryFolder folder;
+  const auto device = open_validated(folder);
+  const Files files{{{"k.comp",
+                      "#version 460\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer O { uint count; uint v[]; } r;\n"
+                      "void main() { r.v[r.count + 1000u] = 7u; }\n"}}};
+  const Pipeline pipeline = create_pipeline(*device, compile(*device, files.lookup(), {"k.comp", {}}));
+  dispatch(*device, pipeline, {{"r", create_buffer(*device, 64, BufferUse::storage, "small")}}, {}, 1);
+  EXPECT_THAT(validation_messages(*device), Contains(HasSubstr("out of bounds")));
+}
+
 TEST(Validation, ObjectsNeverDestroyedAreToldOnClosing) {
   const TemporaryFolder folder;
   auto device = open_validated(folder);
