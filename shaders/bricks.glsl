@@ -18,11 +18,13 @@ int brick_number(ivec3 cell) {
 bool brick_resident(ivec3 cell) { return texelFetch(pageTable, brick_number(cell)).r != NOT_RESIDENT; }
 void request_brick(ivec3 cell) { requested[brick_number(cell)] = 1u; }
 
-// As an evaluation in `cell` counts coefficients; of a brick that is not resident, anything: what it gives is not used.
+// As an evaluation in `cell` counts coefficients; of a brick that is not resident, anything: what is read then (coefficient 0) is not used.
 int coefficient_origin(ivec3 cell) {
   int number = brick_number(cell);
 #ifdef BRICK_UNITS
   brick_unit = texelFetch(brickUnits, number).rg;
 #endif
-  return texelFetch(pageTable, number).r;
+  int origin = texelFetch(pageTable, number).r;
+  brick_here = origin != NOT_RESIDENT;
+  return origin;
 }

@@ -41,31 +41,38 @@ real in_unit(real number) {
 #define in_unit(number) (number)
 #endif
 
+#ifdef BRICKS
+bool brick_here = false;  // whether the brick that was last asked for its coefficient_origin is resident; where it is not, anything is read
+#endif
+
 real coefficient(int number) {
+#ifdef BRICKS
+  number = brick_here ? number : 0;
+#endif
 #if COEFFICIENT_BUFFERS == 1
   return in_unit(FETCH_COEFFICIENT(coefficients0, number));
 #else
   int buffer_number = number >> COEFFICIENT_SHIFT;
   int element = number & ((1 << COEFFICIENT_SHIFT) - 1);
   real c = FETCH_COEFFICIENT(coefficients0, element);
-  c = buffer_number == 1 ? FETCH_COEFFICIENT(coefficients1, element) : c;
+  c = buffer_number == 1 ? FETCH_COEFFICIENT(coefficients1, buffer_number == 1 ? element : 0) : c;
 #if COEFFICIENT_BUFFERS > 2
-  c = buffer_number == 2 ? FETCH_COEFFICIENT(coefficients2, element) : c;
+  c = buffer_number == 2 ? FETCH_COEFFICIENT(coefficients2, buffer_number == 2 ? element : 0) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 3
-  c = buffer_number == 3 ? FETCH_COEFFICIENT(coefficients3, element) : c;
+  c = buffer_number == 3 ? FETCH_COEFFICIENT(coefficients3, buffer_number == 3 ? element : 0) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 4
-  c = buffer_number == 4 ? FETCH_COEFFICIENT(coefficients4, element) : c;
+  c = buffer_number == 4 ? FETCH_COEFFICIENT(coefficients4, buffer_number == 4 ? element : 0) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 5
-  c = buffer_number == 5 ? FETCH_COEFFICIENT(coefficients5, element) : c;
+  c = buffer_number == 5 ? FETCH_COEFFICIENT(coefficients5, buffer_number == 5 ? element : 0) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 6
-  c = buffer_number == 6 ? FETCH_COEFFICIENT(coefficients6, element) : c;
+  c = buffer_number == 6 ? FETCH_COEFFICIENT(coefficients6, buffer_number == 6 ? element : 0) : c;
 #endif
 #if COEFFICIENT_BUFFERS > 7
-  c = buffer_number == 7 ? FETCH_COEFFICIENT(coefficients7, element) : c;
+  c = buffer_number == 7 ? FETCH_COEFFICIENT(coefficients7, buffer_number == 7 ? element : 0) : c;
 #endif
   return in_unit(c);
 #endif

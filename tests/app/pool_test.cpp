@@ -47,6 +47,13 @@ class Pool : public ProgramInFolder {
   const std::string volume = folder / "v.nrrd", tf = folder / "tf.json", out = folder / "out.png";
 };
 
+TEST_F(Pool, ReadsNothingBeyondItsSlotsWhileBricksAreMissing) {
+  // The layer checks what kernels index: a cell whose brick is not there yet has no coefficients of its own to be read.
+  const TemporaryFolder own;
+  const Outcome outcome = run({"render", QUINCUNX_SOURCE_DIR "/data/neghip_bcc.nrrd", "--iso", "40", "--pool", "256K", "--brick", "16", "--size", "24", "24", "--validate", "-o", own / "pool.exr"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 TEST_F(Pool, ShowsAVolumeOfFourTimesItsSizeAsItIs) {
   const std::string large = folder / "large.nrrd";  // 160^3 coefficients are 15.6 MiB and more
   write_volume(make_volume(LatticeKind::cartesian, {160, 160, 160}, {}, [](const glm::dvec3& x) { return hills(0.15 * x); }), large, Encoding::raw);

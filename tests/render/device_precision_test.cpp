@@ -209,7 +209,7 @@ TEST_F(DevicePrecisionTest, DoublesShowBothOfTwoSheetsAThousandthOfACellApart) {
 TEST_F(DevicePrecisionTest, DoublesShowTheSameWhateverIsSkipped) {
   std::vector<AdversarialVolume> volumes = adversarial_volumes();
   for (const std::string spline : {"bcc7", "trilinear", "tricubic"})
-    for (int n = 0; n < int(volumes.size()); n += spline == "bcc7" ? 1 : 5) {
+    for (int n = 0; n < int(volumes.size()); n += spline == "bcc7" ? 3 : 5) {
       const AdversarialVolume& c = volumes[std::size_t(n)];
       const Volume volume = spline == "bcc7" ? c.volume : cartesian_twin(c.volume);
       Renderer::Request request = view_of(c, volume, n % 3, 24);
