@@ -141,7 +141,7 @@ Device::~Device() {
 
 std::shared_ptr<Device> open_device(const DeviceConfig& config) {
   auto device = std::make_shared<Device>();
-  device->instance = create_instance(config.validation ? Validation::on : Validation::off);
+  device->instance = create_instance(!config.validation ? Validation::off : config.gpu_assisted ? Validation::gpu_assisted : Validation::on);
   choose_physical(*device, config);
   read_limits(*device, config.transfer);
   FeatureChain wanted;

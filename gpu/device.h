@@ -16,6 +16,7 @@ enum class Transfer { automatic, staged };
 struct DeviceConfig {
   std::string select;       ///< as choose_device takes it
   bool validation = false;  ///< turn the validation layer on; its messages are collected (validation_messages)
+  bool gpu_assisted = false;  ///< with validation, kernels also check what they index: takes them long to compile
   /// Of SPIR-V and the pipeline cache; "": quincunx in $XDG_CACHE_HOME or ~/.cache. Unwritable: no cache.
   std::string cache_folder;
   Transfer transfer = Transfer::automatic;  ///< staged: as on a discrete GPU, whatever the memory

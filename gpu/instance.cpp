@@ -112,11 +112,11 @@ std::unique_ptr<Instance> create_instance(Validation validation) {
                                                   VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT};
   VkValidationFeaturesEXT layer_features{};
   layer_features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  layer_features.enabledValidationFeatureCount = std::uint32_t(std::size(enables));
+  layer_features.enabledValidationFeatureCount = validation == Validation::gpu_assisted ? std::uint32_t(std::size(enables)) : 1;
   layer_features.pEnabledValidationFeatures = enables;
   VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(*instance);
   messenger.pNext = &layer_features;
-  if (validation == Validation::on) {
+  if (validation != Validation::off) {
     require_validation_layer();
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kLayer;
@@ -127,7 +127,7 @@ std::unique_ptr<Instance> create_instance(Validation validation) {
   const VkResult result = vkCreateInstance(&info, nullptr, &instance->handle);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return nullptr;
   check(result, "vkCreateInstance");
-  if (validation == Validation::on) create_messenger(*instance);
+  if (validation != Validation::off) create_messenger(*instance);
   return instance;
 }
 

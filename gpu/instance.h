@@ -14,7 +14,7 @@
 
 namespace quincunx::gpu {
 
-enum class Validation { off, on };
+enum class Validation { off, on, gpu_assisted };
 
 /// Owns the instance and, with validation, the messenger that fills `messages`.
 struct Instance {

@@ -28,7 +28,7 @@ Renderer::Config checked(Renderer::Config wanted, LatticeKind lattice) {
 std::shared_ptr<KernelCache> open_kernels(const std::string& device, const Renderer::Config& config) {
   gpu::DeviceConfig choice;
   choice.select = device;
-  choice.validation = config.validation;
+  choice.validation = choice.gpu_assisted = config.validation;
   return std::make_shared<KernelCache>(gpu::open_device(choice));
 }
 

@@ -127,7 +127,7 @@ real piece_root(int level, real b[SPLINE_DEGREE + 1], bool crossed, out int surf
 #define EXACT_OFFSET 0.0
 
 bool piece_may_cross(int level, real b[SPLINE_DEGREE + 1], bool crossed) {
-  int above = min(level, parameters.cells.w - 1);
+  int above = clamp(level, 0, parameters.cells.w - 1);
   int below = max(level - 1, 0);
   bool up = level < parameters.cells.w && may_cross(distances(b, scaled_isovalue(above), true, crossed), true);
   bool down = level > 0 && may_cross(distances(b, scaled_isovalue(below), false, crossed), false);
@@ -135,7 +135,7 @@ bool piece_may_cross(int level, real b[SPLINE_DEGREE + 1], bool crossed) {
 }
 // The earlier of the crossings of the next isovalue above and of the one below.
 real piece_root(int level, real b[SPLINE_DEGREE + 1], bool crossed, out int surface) {
-  int above = min(level, parameters.cells.w - 1);
+  int above = clamp(level, 0, parameters.cells.w - 1);
   int below = max(level - 1, 0);
   real up[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(above), true, crossed);
   real down[SPLINE_DEGREE + 1] = distances(b, scaled_isovalue(below), false, crossed);

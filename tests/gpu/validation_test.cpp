@@ -11,7 +11,7 @@ using ::testing::IsEmpty;
 // Not the GpuTest's own check of silence: these make mistakes on purpose.
 std::shared_ptr<Device> open_validated(const TemporaryFolder& folder) {
   DeviceConfig config;
-  config.validation = true;
+  config.validation = config.gpu_assisted = true;
   config.cache_folder = folder.path.string();
   return open_device(config);
 }
