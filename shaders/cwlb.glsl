@@ -7,28 +7,13 @@
 const real SPLINE_SCALE = 1.0;
 #include "bcc_cell.glsl"
 #include "one_piece.glsl"
+#include "corners.glsl"
 
-// Eight samples of a coset, (x,y) = (0,0), (1,0), (0,1), (1,1) steps from the corner, and their trilinear interpolant.
-struct CosetCube {
-  rvec4 low, high;  // at z = 0, 1
-};
-CosetCube coset_cube(int corner, ivec3 step) {
+// The corners of a cube of a coset from one of them on.
+Corners coset_cube(int corner, ivec3 step) {
   int z = corner + step.z;
-  return CosetCube(rvec4(coefficient(corner), coefficient(corner + step.x), coefficient(corner + step.y), coefficient(corner + step.x + step.y)),
-                   rvec4(coefficient(z), coefficient(z + step.x), coefficient(z + step.y), coefficient(z + step.x + step.y)));
-}
-// The value at v, less `offset`, and the gradient.
-void cube_jet(CosetCube c, rvec3 v, real offset, out real value, out rvec3 gradient) {
-  rvec4 edge = rvec4(c.low.xz, c.high.xz) - offset;
-  precise rvec4 rise = rvec4(c.low.yw, c.high.yw) - rvec4(c.low.xz, c.high.xz);
-  precise rvec4 p = edge + v.x * rise;
-  precise rvec2 p_rise = p.yw - p.xz, rise_rise = rise.yw - rise.xz;
-  precise rvec2 face = p.xz + v.y * p_rise, face_rise = rise.xz + v.y * rise_rise;
-  precise real z_rise = face.y - face.x;
-  precise real f = face.x + v.z * z_rise;
-  precise rvec3 g = rvec3(face_rise.x + v.z * (face_rise.y - face_rise.x), p_rise.x + v.z * (p_rise.y - p_rise.x), z_rise);
-  value = f;
-  gradient = g;
+  return Corners(rvec4(coefficient(corner), coefficient(corner + step.x), coefficient(corner + step.y), coefficient(corner + step.x + step.y)),
+                 rvec4(coefficient(z), coefficient(z + step.x), coefficient(z + step.y), coefficient(z + step.x + step.y)));
 }
 
 // sin(pi y) and cos(pi y) for |y| <= 1/2 by their series: the first term left out is below 7e-10, of doubles 2e-18. GLSL promises 5e-4 of its
@@ -56,7 +41,7 @@ rvec3 cosine(rvec3 y) {
 
 // The samples that reach a cell.
 struct Samples {
-  CosetCube even, odd;
+  Corners even, odd;
 };
 Samples cell_samples(SplineCell cell) { return Samples(coset_cube(cell.E, cell.stride), coset_cube(cell.O, -cell.stride)); }
 
@@ -64,8 +49,8 @@ Samples cell_samples(SplineCell cell) { return Samples(coset_cube(cell.E, cell.s
 void samples_jet(Samples s, rvec3 u, real offset, out real value, out rvec3 gradient) {
   real even, odd;
   rvec3 even_slope, odd_slope;
-  cube_jet(s.even, 0.5 * u, offset, even, even_slope);
-  cube_jet(s.odd, 0.5 * (1.0 - u), offset, odd, odd_slope);
+  corners_jet(s.even, 0.5 * u, offset, even, even_slope);
+  corners_jet(s.odd, 0.5 * (1.0 - u), offset, odd, odd_slope);
   rvec3 y = 0.5 - u;
   rvec3 c = sine(y);
   precise real a = 0.5 + (c.x + c.y + c.z) * (1.0 / real(6.0));
