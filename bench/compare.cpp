@@ -119,9 +119,11 @@ std::string command_text(const CLI::App& app) {
 
 const CompareMetric& chosen_metric(const CompareFlags& flags, const CompareSubject& subject) {
   const CompareMetric& metric = compare_metric(flags.wishes.error);
-  if (metric.against_truth && !subject.truth)
-    throw InputError(fmt::format("--error: found {}, which is told of the truth, and {} has none; expected one of image, ssim, ref-wrong, ref-depth, ref-normal", metric.name, subject.name));
-  return metric;
+  if (!metric.against_truth || subject.truth) return metric;
+  std::vector<std::string_view> others;
+  for (const CompareMetric& other : compare_metrics())
+    if (!other.against_truth) others.push_back(other.name);
+  throw InputError(fmt::format("--error: found {}, which is told of the truth, and {} has none; expected one of {}", metric.name, subject.name, fmt::join(others, ", ")));
 }
 
 void compare(const CompareFlags& flags, const std::string& command) {

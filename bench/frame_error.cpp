@@ -19,10 +19,6 @@ glm::dvec3 normal_at(const Frame& frame, std::size_t p) {
   return {frame.normal[3 * p], frame.normal[3 * p + 1], frame.normal[3 * p + 2]};
 }
 
-double angle_degrees(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / glm::pi<double>();
-}
-
 double root_mean_square(const std::vector<float>& values) {
   double squares = 0.0;
   for (const float v : values) squares += double(v) * v;
@@ -79,6 +75,10 @@ Plane window_means(const Plane& plane) {
 }
 
 }  // namespace
+
+double angle_degrees(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / glm::pi<double>();
+}
 
 void FrameComparison::add(const Frame& frame, const Frame& reference, const CellLength& cell, const Counts& counts) {
   assert(frame.depth.size() == reference.depth.size());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "render/scene.h"
@@ -24,6 +25,9 @@ struct FrameErrors {
   /// Missed, false and wrong first hits, in % of the pixels compared.
   double wrong_percent() const { return compared == 0 ? 0.0 : 100.0 * double(wrong()) / double(compared); }
 };
+
+/// Between two vectors of any length, exact for small angles too.
+double angle_degrees(const glm::dvec3& a, const glm::dvec3& b);
 
 /// Gathers the errors of pictures.
 class FrameComparison {
