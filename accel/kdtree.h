@@ -9,7 +9,7 @@
 // every axis is tried, any saving counts, and the tenth holds for the leaves. Deep trees also halve boxes that no plane makes smaller.
 #pragma once
 
-#include "accel/box_tree.h"
+#include "accel/leaf_list.h"
 #include "accel/structure.h"
 
 namespace quincunx {
@@ -29,19 +29,15 @@ class KdTree final : public SkippingStructure {
   void build(const Classification& blocks, const Thresholds& thresholds) override;
   /// Sorts the leaves of a shallow tree front to back.
   void arrange(const glm::dvec3& eye) override;
-  std::vector<StructureBuffer> buffers() const override { return {buffer_of(tree_, version_)}; }
+  std::vector<StructureBuffer> buffers() const override;
   /// x: leaves.
   glm::ivec4 parameters() const override;
   StructureReport report() const override { return report_; }
 
  private:
-  void list_leaves();
-
   Config config_;
-  int block_ = 1;                    ///< edge of a block in cells
-  std::vector<BoxNode> nodes_;       ///< of a shallow tree, as split_blocks returns them
-  std::vector<std::int32_t> order_;  ///< of a shallow tree: its leaves in nodes_, front to back
-  BoxTree tree_;                     ///< what is uploaded: the deep tree, or the leaves of the shallow one in order
+  BoxTree tree_;   ///< of KdDepth::deep
+  LeafList list_;  ///< of KdDepth::shallow
   StructureReport report_;
   std::uint64_t version_ = 0;
 };

@@ -52,15 +52,13 @@ void Octree::prepare(const BlockBounds& blocks) {
 }
 
 void Octree::build(const Classification&, const Thresholds& thresholds) {
-  windows_.clear();
-  for (const auto [highest_min, lowest_max] : thresholds.windows()) windows_.push_back({highest_min + 1u, lowest_max});
-  if (windows_.empty()) windows_.push_back({0, 0});
+  windows_ = kernel_windows(thresholds);
   ++windows_version_;
 }
 
 std::vector<StructureBuffer> Octree::buffers() const {
   return {{"octreeBounds", TexelFormat::rg16, std::as_bytes(std::span(nodes_)), bounds_version_},
-          {"octreeWindows", TexelFormat::rg32, std::as_bytes(std::span(windows_)), windows_version_}};
+          {"windows", TexelFormat::rg32, std::as_bytes(std::span(windows_)), windows_version_}};
 }
 
 glm::ivec4 Octree::parameters() const { return {last_level_, int(last_offset_), int(windows_.size()), 0}; }

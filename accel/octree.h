@@ -5,6 +5,7 @@
 // spline coefficients; here from the Bernstein-Bezier net (accel/bounds.h).
 #pragma once
 
+#include "accel/kernel_windows.h"
 #include "accel/structure.h"
 
 namespace quincunx {
@@ -15,8 +16,7 @@ namespace quincunx {
 ///
 ///   name           element                                            count
 ///   octreeBounds   2 x uint16: min, max (quantised like CellBounds)   the levels one after another, each x fastest
-///   octreeWindows  2 x uint32: a node touches the isovalue where      one an isovalue that any block can touch, at least
-///                  min < first and max >= second                      one; (0, 0) is touched by nothing
+///   windows        KernelWindow                                       as kernel_windows returns them
 class Octree final : public SkippingStructure {
  public:
   std::string_view name() const override { return "octree"; }
@@ -33,11 +33,8 @@ class Octree final : public SkippingStructure {
   struct Node {
     std::uint16_t min, max;
   };
-  struct Window {
-    std::uint32_t above_min, lowest_max;
-  };
   std::vector<Node> nodes_;
-  std::vector<Window> windows_;
+  std::vector<KernelWindow> windows_;
   int last_level_ = 0;
   std::size_t last_offset_ = 0;
   StructureReport report_;  ///< leaves stay 0: which they are is decided in the kernel

@@ -11,6 +11,9 @@ enum class Clustering { none, cubes, boxes };
 /// How far a k-d tree splits: to a few large leaves, or down to a few samples (accel/kdtree.h).
 enum class KdDepth { shallow, deep };
 
+/// What the grid of a hybrid grid holds: minima and maxima, which kernels compare with what can be seen, or whether they meet it (accel/hybrid.h).
+enum class HybridGrid { mm, pc };
+
 /// How blocks and cells are compared with what can be seen (accel/range_query.h): exactly, or as published, by a table or a tree over
 /// 4096 entries, which hold a little more to be visible.
 enum class RangeQueryKind { intervals, table, irt };
@@ -22,7 +25,9 @@ struct SkipConfig {
   Clustering clustering = Clustering::none;  ///< of bvh
   int max_cluster = 16;                      ///< of Clustering::cubes: the largest edge in blocks, 1..256
   KdDepth kd = KdDepth::deep;                ///< of kdtree
-  RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of octree, which compares inside the kernel
+  double least_leaf = 0.1;                   ///< of KdDepth::shallow and hybrid: no leaf is smaller than this part of the root's volume, above 0, at most 1
+  HybridGrid hybrid = HybridGrid::pc;        ///< of hybrid
+  RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of the blocks of octree and HybridGrid::mm, which kernels compare themselves
 
   bool operator==(const SkipConfig&) const = default;
 };

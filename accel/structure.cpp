@@ -6,6 +6,7 @@
 #include "accel/bvh.h"
 #include "accel/distance.h"
 #include "accel/grid.h"
+#include "accel/hybrid.h"
 #include "accel/kdtree.h"
 #include "accel/none.h"
 #include "accel/octree.h"
@@ -27,7 +28,8 @@ constexpr Row kStructures[] = {
     {"octree", [](const SkipConfig&) -> Made { return std::make_unique<Octree>(); }},
     {"distance", [](const SkipConfig&) -> Made { return std::make_unique<Distance>(); }},
     {"bvh", [](const SkipConfig& c) -> Made { return std::make_unique<Bvh>(Bvh::Config{c.clustering, c.max_cluster}); }},
-    {"kdtree", [](const SkipConfig& c) -> Made { return std::make_unique<KdTree>(KdTree::Config{.depth = c.kd}); }},
+    {"kdtree", [](const SkipConfig& c) -> Made { return std::make_unique<KdTree>(KdTree::Config{.depth = c.kd, .least_share = c.least_leaf}); }},
+    {"hybrid", [](const SkipConfig& c) -> Made { return std::make_unique<Hybrid>(Hybrid::Config{c.hybrid, c.least_leaf}); }},
 };
 
 /// A choice that some structures have, as it stands behind their name in a label.
@@ -35,6 +37,7 @@ struct Choice {
   std::string_view label, structure;
   Clustering clustering;
   KdDepth kd;
+  HybridGrid hybrid = HybridGrid::pc;
 };
 constexpr Choice kLabels[] = {
     {"none", "none", Clustering::none, KdDepth::deep},
@@ -46,6 +49,8 @@ constexpr Choice kLabels[] = {
     {"bvh:boxes", "bvh", Clustering::boxes, KdDepth::deep},
     {"kdtree:shallow", "kdtree", Clustering::none, KdDepth::shallow},
     {"kdtree:deep", "kdtree", Clustering::none, KdDepth::deep},
+    {"hybrid:mm", "hybrid", Clustering::none, KdDepth::deep, HybridGrid::mm},
+    {"hybrid:pc", "hybrid", Clustering::none, KdDepth::deep, HybridGrid::pc},
 };
 
 }  // namespace
@@ -81,6 +86,7 @@ SkipConfig labelled_skip(std::string_view label, SkipConfig base) {
     base.structure = choice.structure;
     base.clustering = choice.clustering;
     base.kd = choice.kd;
+    base.hybrid = choice.hybrid;
     return base;
   }
   throw InputError(fmt::format("found {}, expected one of {}", label, fmt::join(skip_labels(), ", ")));
@@ -90,7 +96,8 @@ std::string skip_label(const SkipConfig& config) {
   for (const Choice& choice : kLabels) {
     const bool clustering = config.structure != "bvh" || choice.clustering == config.clustering;
     const bool kd = config.structure != "kdtree" || choice.kd == config.kd;
-    if (choice.structure == config.structure && clustering && kd) return std::string(choice.label);
+    const bool hybrid = config.structure != "hybrid" || choice.hybrid == config.hybrid;
+    if (choice.structure == config.structure && clustering && kd && hybrid) return std::string(choice.label);
   }
   return config.structure;
 }

@@ -55,10 +55,12 @@ class SkippingStructure {
   /// Builds what depends on the isovalues, after prepare for the same blocks; replaces what was built before.
   /// `blocks`: which of them may hold a surface; empty where needs() is less than classification.
   virtual void build(const Classification& blocks, const Thresholds& thresholds) = 0;
+  /// Takes over what kernels compare bounds with, after a build for the same blocks with the same ones active; nothing where they compare none.
+  virtual void compare(const Thresholds&) {}
   /// Orders what depends on where rays come from. `eye` in lattice coordinates.
   virtual void arrange(const glm::dvec3& /*eye*/) {}
 
-  /// The buffers to upload; valid until the next prepare, build or arrange.
+  /// The buffers to upload; valid until the next prepare, build, compare or arrange.
   virtual std::vector<StructureBuffer> buffers() const = 0;
   /// parameters.structure of the GLSL twin; what it means is written there.
   virtual glm::ivec4 parameters() const { return glm::ivec4(0); }

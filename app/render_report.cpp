@@ -97,6 +97,8 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["structure"] = stats.skip.structure;
   if (stats.skip.structure == "bvh") json["cluster"] = clustering_name(stats.skip.clustering);
   if (stats.skip.structure == "kdtree") json["kd"] = kd_name(stats.skip.kd);
+  if (stats.skip.structure == "hybrid") json["hybrid"] = hybrid_name(stats.skip.hybrid);
+  if (has_large_leaves(stats.skip)) json["least_leaf"] = stats.skip.least_leaf;
   if (stats.blocks > 0) json["block"] = stats.skip.block;
   json["cell_test"] = stats.skip.cell_test;
   json["camera"] = {{"eye", to_json(scene.camera.eye)},

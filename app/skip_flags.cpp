@@ -17,6 +17,8 @@ constexpr std::array<std::pair<std::string_view, Clustering>, 3> kClusterings{
 constexpr std::array<std::pair<std::string_view, KdDepth>, 2> kKdDepths{
     {{"shallow", KdDepth::shallow}, {"deep", KdDepth::deep}}};
 
+constexpr std::array<std::pair<std::string_view, HybridGrid>, 2> kHybridGrids{{{"mm", HybridGrid::mm}, {"pc", HybridGrid::pc}}};
+
 template <class Enum, std::size_t N>
 std::string_view name_of(const std::array<std::pair<std::string_view, Enum>, N>& names, Enum wanted) {
   for (const auto& [name, value] : names)
@@ -42,6 +44,11 @@ void check_given(bool given, std::string_view flag, std::string_view structure, 
 
 std::string_view clustering_name(Clustering clustering) { return name_of(kClusterings, clustering); }
 std::string_view kd_name(KdDepth kd) { return name_of(kKdDepths, kd); }
+std::string_view hybrid_name(HybridGrid grid) { return name_of(kHybridGrids, grid); }
+
+bool has_large_leaves(const SkipConfig& config) {
+  return config.structure == "hybrid" || (config.structure == "kdtree" && config.kd == KdDepth::shallow);
+}
 
 void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   std::vector<std::string> structures{"auto"};
@@ -74,15 +81,34 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   add_parsed(app, "--kd", kd, "{shallow,deep}", std::string(kd_name(flags.config.kd)),
              "Of kdtree: a few large leaves, sorted for each picture, or small ones that each ray looks for")
       ->group(group);
+  const auto hybrid = [&flags](const std::string& text) {
+    flags.config.hybrid = named(kHybridGrids, text, "--hybrid");
+    flags.hybrid_given = true;
+  };
+  add_parsed(app, "--hybrid", hybrid, "{mm,pc}", std::string(hybrid_name(flags.config.hybrid)),
+             "Of hybrid: its grid holds minima and maxima, compared with what can be seen at each block, or whether they meet it")
+      ->group(group);
+  const auto leaf = [&flags](const std::string& text) {
+    flags.config.least_leaf = parse_number(text, "--least-leaf");
+    if (!(flags.config.least_leaf > 0.0 && flags.config.least_leaf <= 1.0))
+      throw InputError(fmt::format("--least-leaf: found '{}', expected a number above 0, at most 1", text));
+    flags.least_leaf_given = true;
+  };
+  add_parsed(app, "--least-leaf", leaf, "X", fmt::format("{}", flags.config.least_leaf),
+             "Of hybrid and shallow k-d trees: no leaf is smaller than this part of the box around all that is active")
+      ->group(group);
   add_choice(app, "--range-query", flags.config.range_query,
              {{"intervals", RangeQueryKind::intervals}, {"table", RangeQueryKind::table}, {"irt", RangeQueryKind::irt}},
-             "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of octree's blocks")
+             "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of the blocks of octree and hybrid mm")
       ->group(group);
 }
 
 void check_skip_flags(const SkipFlags& flags) {
   check_given(flags.clustering_given, "--cluster", "bvh", flags.config);
   check_given(flags.kd_given, "--kd", "kdtree", flags.config);
+  check_given(flags.hybrid_given, "--hybrid", "hybrid", flags.config);
+  if (flags.least_leaf_given && !has_large_leaves(flags.config))
+    throw InputError(fmt::format("--least-leaf: found with --skip {}, expected --skip hybrid or --skip kdtree --kd shallow", flags.config.structure));
   if (flags.max_cluster_given && flags.config.clustering != Clustering::cubes)
     throw InputError(fmt::format("--max-cluster: found with --cluster {}, expected --cluster cubes",
                                  clustering_name(flags.config.clustering)));

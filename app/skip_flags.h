@@ -11,10 +11,10 @@ namespace quincunx {
 
 struct SkipFlags {
   SkipConfig config;
-  bool clustering_given = false, max_cluster_given = false, kd_given = false;
+  bool clustering_given = false, max_cluster_given = false, kd_given = false, hybrid_given = false, least_leaf_given = false;
 };
 
-/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd, --range-query.
+/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd, --hybrid, --least-leaf, --range-query.
 void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group);
 
 /// Throws InputError naming the flag where one was given that the structure of --skip does not have.
@@ -24,5 +24,9 @@ void check_skip_flags(const SkipFlags& flags);
 std::string_view clustering_name(Clustering clustering);
 /// "shallow", "deep".
 std::string_view kd_name(KdDepth kd);
+/// "mm", "pc".
+std::string_view hybrid_name(HybridGrid grid);
+/// Whether SkipConfig::least_leaf means something to the structure.
+bool has_large_leaves(const SkipConfig& config);
 
 }  // namespace quincunx

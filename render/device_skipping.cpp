@@ -30,6 +30,8 @@ bool same_blocks(const std::optional<Classification>& a, const Classification& b
 void check_config(const SkipConfig& config) {
   if (config.max_cluster < 1 || config.max_cluster > 256)
     throw InputError(fmt::format("--max-cluster: found {}, expected 1 to 256", config.max_cluster));
+  if (!(config.least_leaf > 0.0 && config.least_leaf <= 1.0))
+    throw InputError(fmt::format("--least-leaf: found {}, expected a number above 0, at most 1", config.least_leaf));
 }
 
 }  // namespace
@@ -88,9 +90,10 @@ void DeviceSkipping::prepare_structure(const SkipConfig& config, VolumeBounds& b
   // Where the outcome is the same, nothing is built.
   const Classification& blocks = classified(bounds, config.block, stats);
   const bool by_blocks = structure_->needs() == Needs::classification;
-  if (by_blocks && same_blocks(built_, blocks)) return;
   const Stopwatch building;
-  structure_->build(by_blocks ? blocks : Classification{}, Thresholds(bounds.scale(), ranges_));
+  const Thresholds thresholds(bounds.scale(), ranges_);
+  if (by_blocks && same_blocks(built_, blocks)) return structure_->compare(thresholds);
+  structure_->build(by_blocks ? blocks : Classification{}, thresholds);
   stats.cluster_ms += structure_->report().cluster_ms;
   stats.build_ms += building.ms() - structure_->report().cluster_ms;
   if (by_blocks) built_ = blocks;

@@ -1,27 +1,14 @@
 // The min/max octree (accel/octree.h), one level a step. parameters.structure: x the last level, which is one node, y its place
 // in octreeBounds, z the number of windows.
+#include "windows.glsl"
+
 layout(binding = 3) uniform usamplerBuffer octreeBounds;
-layout(binding = 9) uniform usamplerBuffer octreeWindows;
 
 struct SkipState {
   int level;   // to look at next
   int offset;  // its place in octreeBounds
 };
 SkipState begin_skip() { return SkipState(parameters.structure.x, parameters.structure.y); }
-
-bool octree_touches(uvec2 bounds) {
-#if RANGES == 1
-  uvec2 window = texelFetch(octreeWindows, 0).rg;
-  return bounds.x < window.x && bounds.y >= window.y;
-#else
-  bool touches = false;
-  for (int k = 0; k < parameters.structure.z; ++k) {
-    uvec2 window = texelFetch(octreeWindows, k).rg;
-    touches = touches || (bounds.x < window.x && bounds.y >= window.y);
-  }
-  return touches;
-#endif
-}
 
 ivec3 octree_size(int level) { return (parameters.blocks.xyz + ((1 << level) - 1)) >> level; }
 
@@ -30,10 +17,7 @@ bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, o
   ivec3 node = cell >> shift;
   ivec3 size = octree_size(state.level);
   uvec2 bounds = texelFetch(octreeBounds, state.offset + (node.z * size.y + node.y) * size.x + node.x).rg;
-  bool touches = octree_touches(bounds);
-#ifdef VOIDS
-  touches = touches && bounds.x <= bounds.y;  // not all of it is void
-#endif
+  bool touches = touches_window(bounds);
   until = exit_time(ray, node << shift, 1 << shift);
   from = touches ? t : until;
   bool deeper = touches && state.level > 0;

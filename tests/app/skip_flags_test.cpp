@@ -38,7 +38,7 @@ Arguments flags_of(std::string_view label) {
   const std::size_t colon = label.find(':');
   const std::string structure(label.substr(0, colon));
   Arguments flags{"--skip", structure};
-  if (colon != label.npos) flags.insert(flags.end(), {structure == "bvh" ? "--cluster" : "--kd", std::string(label.substr(colon + 1))});
+  if (colon != label.npos) flags.insert(flags.end(), {structure == "bvh" ? "--cluster" : structure == "hybrid" ? "--hybrid" : "--kd", std::string(label.substr(colon + 1))});
   return flags;
 }
 
@@ -73,6 +73,11 @@ TEST(SkipFlags, OfAnotherStructureAreRefusedInOneLine) {
       {{"--skip", "kdtree", "--cluster", "none"}, {"--cluster", "--skip kdtree", "--skip bvh"}},
       {{"--kd", "deep"}, {"--kd", "--skip auto", "--skip kdtree"}},
       {{"--skip", "bvh", "--kd", "shallow"}, {"--kd", "--skip bvh", "--skip kdtree"}},
+      {{"--skip", "grid", "--hybrid", "mm"}, {"--hybrid", "--skip grid", "--skip hybrid"}},
+      {{"--skip", "hybrid", "--hybrid", "min"}, {"--hybrid", "'min'", "mm, pc"}},
+      {{"--skip", "hybrid", "--kd", "shallow"}, {"--kd", "--skip hybrid", "--skip kdtree"}},
+      {{"--skip", "kdtree", "--least-leaf", "0.2"}, {"--least-leaf", "--skip kdtree", "--skip kdtree --kd shallow"}},
+      {{"--skip", "hybrid", "--least-leaf", "0"}, {"--least-leaf", "'0'", "above 0"}},
       {{"--max-cluster", "4"}, {"--max-cluster", "--cluster none", "--cluster cubes"}},
       {{"--skip", "bvh", "--cluster", "boxes", "--max-cluster", "4"}, {"--max-cluster", "--cluster boxes", "--cluster cubes"}},
       {{"--skip", "bvh", "--cluster", "spheres"}, {"--cluster", "'spheres'", "none, cubes, boxes"}},
@@ -115,7 +120,10 @@ std::string label_of(const json& stats) {
   std::string label = stats["structure"];
   EXPECT_EQ(stats.contains("cluster"), label == "bvh");
   EXPECT_EQ(stats.contains("kd"), label == "kdtree");
+  EXPECT_EQ(stats.contains("hybrid"), label == "hybrid");
+  EXPECT_EQ(stats.contains("least_leaf"), label == "hybrid" || stats.value("kd", "") == "shallow");
   if (stats.value("cluster", "none") != "none") label += ":" + stats["cluster"].get<std::string>();
+  if (stats.contains("hybrid")) label += ":" + stats["hybrid"].get<std::string>();
   if (stats.contains("kd")) label += ":" + stats["kd"].get<std::string>();
   return label;
 }

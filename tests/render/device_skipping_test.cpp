@@ -139,6 +139,24 @@ TEST_F(EverySetting, ShowsTheSamePictureHoweverRangesAreLookedFor) {
   EXPECT_GT(more, 0u) << "the queries were asked";
 }
 
+TEST_F(EverySetting, ComparesWithWhatIsSeenNowWhereTheSameBlocksStayActive) {
+  // Isovalues within one entry of the published queries, which find the same blocks active for all of them, on both sides of a border of blocks.
+  const Volume ramp = bcc_volume({16, 6, 6}, [](const glm::dvec3& u) { return u.x; });
+  DeviceRenderer renderer(test_kernels(), ramp, Renderer::Config{}), plain(test_kernels(), ramp, Renderer::Config{});
+  RenderStats stats;
+  for (const std::string_view label : skipping_labels()) {
+    for (int n = 0; n <= 8; ++n) {
+      Renderer::Request request = request_for(ramp, 16.0 - 0.008 + 0.002 * n, 8, 200.0);
+      request.skip = labelled_skip(label, {.block = 4, .cell_test = false});
+      request.skip.range_query = RangeQueryKind::table;
+      SCOPED_TRACE(std::string(label) + ", isovalue " + std::to_string(n));
+      const Frame frame = renderer.render(request, stats);
+      request.skip = labelled_skip("none");
+      expect_same_picture(frame, plain.render(request, stats));
+    }
+  }
+}
+
 /// A Cartesian volume of a BCC volume's samples: its cosets, one behind the other along z, or the first alone.
 Volume cartesian_twin(const Volume& bcc, bool both) {
   Volume volume = bcc;

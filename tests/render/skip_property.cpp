@@ -165,7 +165,7 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   resources.emplace_back("Isosurfaces", filled(std::as_bytes(std::span(isosurface)), gpu::BufferUse::storage, "isosurfaces"));
   resources.emplace_back("coefficients0", filled(std::as_bytes(std::span(coefficients.data)), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT));
   resources.emplace_back("Tally", tallies);
-  const bool from_eye = config.structure == "kdtree" && config.kd == KdDepth::shallow;  // sorted for one eye
+  const bool from_eye = config.structure == "hybrid" || (config.structure == "kdtree" && config.kd == KdDepth::shallow);  // sorted for one eye
   const Push push{glm::vec4(glm::vec3(eye), from_eye ? 1.0f : 0.0f), seed};
   gpu::dispatch(device, pipeline, resources, std::as_bytes(std::span(&push, 1)).first(pipeline.reflection.push_constant_bytes), rays / 64);
   gpu::download(device, tallies, std::as_writable_bytes(std::span(tally)));

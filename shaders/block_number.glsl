@@ -1,0 +1,2 @@
+// The place of a block among all, x fastest.
+int block_number(ivec3 block) { return (block.z * parameters.blocks.y + block.y) * parameters.blocks.x + block.x; }
