@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/bih.h"
 #include "accel/bvh.h"
 #include "accel/distance.h"
 #include "accel/grid.h"
@@ -28,6 +29,7 @@ constexpr Row kStructures[] = {
     {"octree", [](const SkipConfig&) -> Made { return std::make_unique<Octree>(); }},
     {"distance", [](const SkipConfig&) -> Made { return std::make_unique<Distance>(); }},
     {"bvh", [](const SkipConfig& c) -> Made { return std::make_unique<Bvh>(Bvh::Config{c.clustering, c.max_cluster}); }},
+    {"bih", [](const SkipConfig&) -> Made { return std::make_unique<BihSkipping>(); }},
     {"kdtree", [](const SkipConfig& c) -> Made { return std::make_unique<KdTree>(KdTree::Config{.depth = c.kd, .least_share = c.least_leaf}); }},
     {"hybrid", [](const SkipConfig& c) -> Made { return std::make_unique<Hybrid>(Hybrid::Config{c.hybrid, c.least_leaf}); }},
 };
@@ -47,6 +49,7 @@ constexpr Choice kLabels[] = {
     {"bvh", "bvh", Clustering::none, KdDepth::deep},
     {"bvh:cubes", "bvh", Clustering::cubes, KdDepth::deep},
     {"bvh:boxes", "bvh", Clustering::boxes, KdDepth::deep},
+    {"bih", "bih", Clustering::none, KdDepth::deep},
     {"kdtree:shallow", "kdtree", Clustering::none, KdDepth::shallow},
     {"kdtree:deep", "kdtree", Clustering::none, KdDepth::deep},
     {"hybrid:mm", "hybrid", Clustering::none, KdDepth::deep, HybridGrid::mm},

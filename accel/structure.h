@@ -29,11 +29,12 @@ struct StructureBuffer {
 
 /// What a structure consists of, and what making it took. Milliseconds of the last prepare and build together.
 struct StructureReport {
-  std::uint64_t leaves = 0;  ///< boxes or blocks that may hold a surface, as rays meet them
-  std::uint64_t nodes = 0;   ///< of a tree, leaves included; 0 where there is none
-  int depth = 0;             ///< of a tree: nodes from the root to the deepest leaf
-  double cluster_ms = 0.0;   ///< blocks to larger boxes
-  double build_ms = 0.0;     ///< all else
+  std::uint64_t leaves = 0;     ///< boxes or blocks that may hold a surface, as rays meet them
+  std::uint64_t nodes = 0;      ///< of a tree, leaves included; 0 where there is none
+  std::uint64_t one_child = 0;  ///< nodes with one child, where a tree has such
+  int depth = 0;                ///< of a tree: nodes from the root to the deepest leaf
+  double cluster_ms = 0.0;      ///< blocks to larger boxes
+  double build_ms = 0.0;        ///< all else
 };
 
 /// A skipping structure. On the device it answers one question: the next interval of the ray that may hold a

@@ -124,6 +124,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["void_cells"] = stats.void_cells;
   json["leaves"] = stats.leaves;
   json["nodes"] = stats.nodes;
+  json["one_child"] = stats.one_child;
   json["depth"] = stats.depth;
   if (stats.bricks.edge > 0) json["bricks"] = bricks_json(stats.bricks);
   json["device_bytes"] = Json::object();

@@ -120,6 +120,7 @@ Json setting_json(const SweepReport& report, std::size_t n) {
           {"active_fraction", scene.blocks == 0 ? Json() : Json(ratio(scene.active_blocks, scene.blocks))},
           {"leaves", scene.leaves},
           {"nodes", scene.nodes},
+          {"one_child", scene.one_child},
           {"depth", scene.depth},
           {"evaluations_per_ray", ratio(m.cost.evaluations, m.cost.rays)},
           {"steps_per_ray", ratio(m.steps, m.cost.rays)},
@@ -260,7 +261,7 @@ Table sweep_stage_table(const SweepReport& report) {
   const bool tests = shows_cell_test(report);
   Table table{.headings = {"structure"}, .rows = {}, .left = tests ? 2u : 1u};
   if (tests) table.headings.emplace_back("cell test");
-  for (const char* heading : {"block", "blocks", "active", "%", "leaves", "leaves/active %", "classify", "cluster", "build", "upload", "change",
+  for (const char* heading : {"block", "blocks", "active", "%", "leaves", "leaves/active %", "nodes", "one child", "depth", "classify", "cluster", "build", "upload", "change",
                               "bytes", "traversal", "frame", "worst", "speed-up"})
     table.headings.emplace_back(heading);
   const auto percent = [](std::uint64_t part, std::uint64_t whole) {
@@ -278,6 +279,7 @@ Table sweep_stage_table(const SweepReport& report) {
     row.push_back(percent(scene.active_blocks, scene.blocks));
     row.push_back(fmt::format("{}", scene.leaves));
     row.push_back(percent(scene.leaves, scene.active_blocks));
+    for (const std::uint64_t number : {scene.nodes, scene.one_child, std::uint64_t(scene.depth)}) row.push_back(number == 0 ? "-" : fmt::format("{}", number));
     for (const double ms : {m.stages.classify_ms, m.stages.cluster_ms, m.stages.build_ms, m.stages.upload_ms})
       row.push_back(three_digits(ms));
     row.push_back(three_digits(m.change_ms()));

@@ -153,6 +153,7 @@ void DeviceSkipping::describe(RenderStats& stats) const {
   const StructureReport report = structure_->report();
   stats.leaves = structure_->needs() == Needs::bounds ? stats.active_blocks : report.leaves;
   stats.nodes = report.nodes;
+  stats.one_child = report.one_child;
   stats.depth = report.depth;
 }
 

@@ -43,7 +43,7 @@ struct RenderStats {
   std::vector<std::pair<std::string, std::uint64_t>> device_bytes;  ///< by purpose: coefficients, structure, occupancy, frame
   std::uint64_t blocks = 0, active_blocks = 0, active_cells = 0;
   glm::i64vec3 block_extents{0};                  ///< blocks per axis
-  std::uint64_t leaves = 0, nodes = 0;            ///< see StructureReport
+  std::uint64_t leaves = 0, nodes = 0, one_child = 0;  ///< see StructureReport
   int depth = 0;
   std::uint64_t void_cells = 0;                   ///< of NanPolicy::empty
   std::uint64_t rays = 0, hits = 0;

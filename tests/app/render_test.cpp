@@ -114,7 +114,7 @@ TEST_F(Render, WritesTheStatisticsThatTheReadmeNames) {
     for (const char* key :
          {"volume", "device", "size", "isovalues", "intersect", "normal", "structure", "cell_test", "trace_ms", "stages_ms",
           "rays", "hits", "evaluations", "steps", "intervals", "blocks", "active_blocks", "active_cells", "leaves", "nodes",
-          "depth", "device_bytes", "camera"}) {
+          "one_child", "depth", "device_bytes", "camera"}) {
       EXPECT_TRUE(stats.contains(key)) << key;
     }
     EXPECT_EQ(stats.contains("block"), device != "cpu");  // the reference walks no structure

@@ -34,6 +34,9 @@ SweepMeasurement measurement(std::vector<double> frame_ms, const SweepSetting& s
   m.scene.block_extents = {4, 4, 4};
   m.scene.active_blocks = 16;
   m.scene.leaves = 4;
+  m.scene.nodes = 9;
+  m.scene.one_child = 2;
+  m.scene.depth = 5;
   return m;
 }
 
@@ -84,9 +87,9 @@ TEST(SweepReport, FrameTableHasRowsWithAndWithoutCellTestsWhereBothWereMeasured)
 TEST(SweepReport, StageTableHasARowForEachSetting) {
   const Table table = sweep_stage_table(known_report());
   ASSERT_EQ(table.rows.size(), 5u);
-  EXPECT_THAT(table.rows[0], ElementsAre("none", "-", "0", "0", "-", "0", "-", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "60", "80", "1"));
+  EXPECT_THAT(table.rows[0], ElementsAre("none", "-", "0", "0", "-", "0", "-", "-", "-", "-", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "60", "80", "1"));
   EXPECT_THAT(table.rows[2],
-              ElementsAre("octree", "4", "64", "16", "25", "4", "25", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "*15", "20", "4"));
+              ElementsAre("octree", "4", "64", "16", "25", "4", "25", "9", "2", "5", "0.5", "0.25", "0", "0", "1.75", "4096", "2", "*15", "20", "4"));
   EXPECT_EQ(table.headings.size(), table.rows[0].size());
 }
 
@@ -134,6 +137,7 @@ TEST(SweepReport, JsonHasTheStatisticsOfEachSetting) {
   EXPECT_EQ(octree["intervals_per_ray"], 0.5);
   EXPECT_EQ(octree["active_fraction"], 0.25);
   EXPECT_EQ(octree["depth_complexity"], 6.0 / 12.0);  // 1200 intervals of 200 rays, 4 + 4 + 4 blocks
+  EXPECT_EQ(octree["one_child"], 2);
   EXPECT_EQ(octree["structure_bytes"], 4096);
   EXPECT_EQ(octree["occupancy_bytes"], 77);
   EXPECT_EQ(octree["frames_ms"].size(), 4u);
