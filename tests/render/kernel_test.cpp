@@ -160,11 +160,18 @@ std::set<std::string> names_in(std::span<const std::uint32_t> spirv) {
   return names;
 }
 
-/// The names of the buffers that a structure hands out for a few blocks.
-std::set<std::string> buffers_of(const std::string& name) {
-  SkipConfig config;
-  config.structure = name;
-  const std::unique_ptr<SkippingStructure> structure = make_structure(config);
+/// The structure of a variant, in a form that has its shader.
+std::unique_ptr<SkippingStructure> structure_of(const KernelVariant& v) {
+  for (const std::string_view label : skip_labels()) {
+    std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
+    if (structure->name() == v.structure && structure->shader() == v.structure_shader) return structure;
+  }
+  throw std::logic_error("no structure has the shader " + v.structure_shader);
+}
+
+/// The names of the buffers that the structure of a variant hands out for a few blocks.
+std::set<std::string> buffers_of(const KernelVariant& v) {
+  const std::unique_ptr<SkippingStructure> structure = structure_of(v);
   CellBounds cells;
   cells.cells = glm::i64vec3(2);
   cells.min.assign(8, 0), cells.max.assign(8, 65535);
@@ -195,7 +202,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
       EXPECT_FALSE(part.feature.why.empty());
     }
     std::set<std::string> expected{"uniforms", "Color", "Hit", "Rays"};
-    expected.merge(buffers_of(v.structure));
+    expected.merge(buffers_of(v));
     if (v.surfaces && !v.stub) expected.insert("Isosurfaces");
     if (v.volume && !v.stub) expected.insert("transferTable");
     if (v.cell_test) expected.insert("occupancy");
