@@ -32,7 +32,9 @@ void BihSkipping::build(const Classification& blocks, const Thresholds&) {
   const std::vector<BlockBox> active = single_blocks(blocks);
   std::vector<BihBox> boxes(active.size());
   std::ranges::transform(active, boxes.begin(), [](const BlockBox& b) { return BihBox{glm::vec3(b.low), glm::vec3(b.high)}; });
-  Bih bih = build_bih(boxes, {.chunk_levels = config_.chunk_levels, .least_step = 1.0});
+  // Halves of halves, never medians, which may leave children that overlap: 16 along each axis part 65536 blocks.
+  Bih bih = build_bih(boxes, {.chunk_levels = config_.chunk_levels, .max_forks = 2 * stack, .least_step = 1.0});
+  if (bih.forks > stack) throw std::runtime_error(fmt::format("a bounding interval hierarchy: found {} levels that part blocks, expected at most {}", bih.forks, stack));
   assert(bih.step == glm::dvec3(1.0));
   for (BihNode& node : bih.nodes)
     if (node.leaf()) node = leaf_of(active[bih.order[node.index()]].low);

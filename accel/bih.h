@@ -6,7 +6,8 @@
 
 namespace quincunx {
 
-/// On the device: the nodes of the hierarchy over the blocks' grid, planes whole blocks, one leaf a block. A leaf holds its block instead
+/// On the device: the nodes of the hierarchy over the blocks' grid, planes whole blocks, one leaf a block. Children do not overlap, as blocks
+/// do not, so that a walk meets the leaves in the order of the ray. A leaf holds its block instead
 /// of a number, so that kernels know its box exactly:
 ///
 ///   offset  bits   what
@@ -17,6 +18,8 @@ namespace quincunx {
 ///        4  16-31  z
 class BihSkipping final : public SkippingStructure {
  public:
+  static constexpr int stack = 48;  ///< of the kernel: nodes with two children above a leaf, at most
+
   struct Config {
     int chunk_levels = 4;  ///< see BihConfig
   };

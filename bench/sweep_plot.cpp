@@ -22,9 +22,9 @@ struct Curve {
 };
 
 /// Colours that colour-blind eyes tell apart (M. Okabe, K. Ito), with a shape of their own, by the place in skip_labels().
-constexpr std::array<const char*, 10> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                              "#56b4e9", "#7f5a3c", "#808080", "#f0e442", "#000000"};
-constexpr std::array<int, 10> kShapes{7, 5, 9, 11, 13, 6, 4, 8, 10, 12};
+constexpr std::array<const char*, 12> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+                                              "#7f5a3c", "#808080", "#f0e442", "#000000", "#332288", "#aa1144"};
+constexpr std::array<int, 12> kShapes{7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 15, 14};
 
 double median_ms(const SweepReport& report, std::size_t n) { return percentile(report.measured[n].cost.frame_ms, 0.5); }
 

@@ -33,13 +33,13 @@ def best(kind): [.settings[] | select(.structure == kind)] | if length == 0 then
   | "\(.frame_ms_median | short)" + (if .block then " (\(.block))" else "" end) end;
 . as $s | (.settings | map(select(.structure != "none")) | min_by(.frame_ms_median)) as $b
 | "| " + ([(.volume | split("/") | last | rtrimstr(".nrrd")), (.isovalues | map(tostring) | join(",")), best("none"), best("grid"), best("octree"),
-    best("distance"), best("bvh"), best("bvh:cubes"), best("bvh:boxes"), best("kdtree:shallow"), best("kdtree:deep"),
+    best("distance"), best("bvh"), best("bvh:cubes"), best("bvh:boxes"), best("bih"), best("kdtree:shallow"), best("kdtree:deep"),
     "\($b.structure) \($b.block)", ($b.speedup_median | short), (.auto | "\(.structure) \(.block): \(.times_best * 100 | round / 100)")]
   | join(" | ")) + " |"'
 
 table() {  # OUT exact|fast|march
-  echo "| volume | isovalue | none | grid | octree | distance | bvh | bvh:cubes | bvh:boxes | kdtree:shallow | kdtree:deep | best | speed-up | auto, times the best |"
-  echo "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|:--|--:|:--|"
+  echo "| volume | isovalue | none | grid | octree | distance | bvh | bvh:cubes | bvh:boxes | bih | kdtree:shallow | kdtree:deep | best | speed-up | auto, times the best |"
+  echo "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|:--|--:|:--|"
   for scene in "${scenes[@]}"; do
     local json=$1/${scene%:*}_${scene#*:}_$2/sweep.json
     [[ ! -s $json ]] || jq -r "$line" "$json"

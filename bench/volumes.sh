@@ -40,7 +40,7 @@ def best(kind): [.settings[] | select(.structure == kind)] | if length == 0 then
 . as $s | (.settings | map(select(.structure != "none")) | min_by(.frame_ms_median)) as $b
 | ([.settings[] | select(.differing_pixels > 0)] | length) as $other
 | "| " + ([$name, best("none"), best("grid"), best("octree"), best("distance"), best("bvh"), best("bvh:cubes"), best("bvh:boxes"),
-    best("kdtree:shallow"), best("kdtree:deep"), "\($b.structure) \($b.block)", ($b.speedup_median * 100 | round / 100 | tostring),
+    best("bih"), best("kdtree:shallow"), best("kdtree:deep"), "\($b.structure) \($b.block)", ($b.speedup_median * 100 | round / 100 | tostring),
     (.auto | "\(.structure) \(.block): \(.times_best * 100 | round / 100)"), "\((.settings | length) - $other) of \(.settings | length)"]
   | join(" | ")) + " |"'
 
@@ -67,8 +67,8 @@ command -v jq >/dev/null || { echo "volumes.sh: found no jq, expected it (packag
 out=$2
 [[ $1 == --table ]] || sweep "$1" "$out"
 printf 'Frame times in ms, the best block in parentheses, "-" without the cell test:\n\n'
-echo "| scene | none | grid | octree | distance | bvh | bvh:cubes | bvh:boxes | kdtree:shallow | kdtree:deep | best | speed-up | auto, times the best | same picture |"
-echo "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|:--|--:|:--|:--|"
+echo "| scene | none | grid | octree | distance | bvh | bvh:cubes | bvh:boxes | bih | kdtree:shallow | kdtree:deep | best | speed-up | auto, times the best | same picture |"
+echo "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|:--|--:|:--|:--|"
 table "$out" "$frames"
 printf '\nFrame times in ms, bricks resident of all, and what the samples take on the device:\n\n'
 echo "| scene | whole | bricks of 8 | of 16 | of 32 | of 64 | same picture |"

@@ -201,16 +201,25 @@ TEST(BihBuild, AChunkIsStoredTogetherAndBreadthFirst) {
   for (const int levels : {1, 2, 4, 64}) {
     const Bih bih = build_bih(shell_of_cubes(24), {.chunk_levels = levels});
     SCOPED_TRACE(levels);
-    std::vector<int> depth(bih.nodes.size());
-    visit(bih, [&](std::uint32_t n, const Region&, int d, int) { return depth[n] = d, true; });
-    // Nodes down to the last level of the first chunk come first, level by level, and again behind each of the others.
-    const auto end = std::find_if(depth.begin(), depth.end(), [&](int d) { return d > levels + 1; });
-    EXPECT_TRUE(std::is_sorted(depth.begin(), end));
-    EXPECT_EQ(std::count_if(depth.begin(), depth.end(), [&](int d) { return d <= levels + 1; }), end - depth.begin());
-    for (std::size_t n = 1; n < depth.size(); ++n) {
-      const bool goes_down = depth[n] <= depth[n - 1] + 1;
-      EXPECT_TRUE(goes_down) << n;
-    }
+    std::uint64_t chunks = 0, elsewhere = 0;
+    visit(bih, [&](std::uint32_t top, const Region&, int depth, int) {
+      if (bih.nodes[top].leaf() || (depth - 1) % levels != 0) return true;
+      // A chunk is what is below such a node, down to `levels` below it.
+      std::uint32_t expected = bih.nodes[top].index();
+      std::vector<std::uint32_t> level{top}, below;
+      for (int n = 0; n < levels; ++n, level.swap(below), below.clear())
+        for (const std::uint32_t parent : level) {
+          const BihNode& node = bih.nodes[parent];
+          for (int c = 0; c < (node.leaf() ? 0 : node.one_child() ? 1 : 2); ++c, ++expected) {
+            elsewhere += node.index() + std::uint32_t(c) != expected;
+            below.push_back(node.index() + std::uint32_t(c));
+          }
+        }
+      ++chunks;
+      return true;
+    });
+    EXPECT_EQ(elsewhere, 0u);
+    EXPECT_GT(chunks, levels == 64 ? 0u : 10u);
   }
 }
 
