@@ -105,19 +105,34 @@ TEST_F(VoxelsOf, AreExplainedAndDrawnAsHeat) {
   expect_refused(render({"--heat", "depth", "-o", folder / "heat.png"}), {"--heat: found depth", "expected evaluations"});
 }
 
-TEST_F(VoxelsOf, RefuseWhatMeansNothingWithThem) {
+TEST(VoxelFlags, RefuseWhatMeansNothingWithThem) {
+  const auto refusal = [](const Arguments& more) {
+    Arguments arguments{"v.nrrd", "--render", "bih", "--tf", "tf.json", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return render_refusal(arguments);
+  };
   for (const Arguments& more : std::vector<Arguments>{{"--iso", "0.5"}, {"--skip", "grid"}, {"--pool", "1M"}, {"--spline", "tricubic"}, {"--storage", "unorm8"}, {"--step", "0.5"},
                                                       {"--classify", "post"}, {"--adaptive", "0.1"}, {"--jitter", "1"}, {"--precision", "double"}, {"--normal", "central"},
                                                       {"--intersect", "march"}, {"--stub-sampling"}, {"--tf-entries", "64"}, {"--block", "4"}, {"--opacity", "1"}})
-    expect_refused(render(more), {more.front() + ": found with --render bih", "expected --render spline"});
-  EXPECT_EQ(run(render({"--azimuth", "10", "--shade", "off", "--modulate", "0,1", "--termination", "0", "--ambient", "0.5", "--background", "1,1,1"})).status, 0);
-  expect_refused({"render", volume, "--render", "bih", "-o", out}, {"--tf: found --render bih without it"});
-  expect_refused({"render", volume, "--tf", tf, "-o", out, "--bih-lod", "1"}, {"--bih-lod: found without --render bih"});
-  expect_refused({"render", "--tf", tf, "-o", out}, {"VOLUME: found none", "--particles"});
-  expect_refused(render({"--bih-lod", "-1"}), {"--bih-lod: found -1", "at least 0"});
-  expect_refused(render({"--supersample", "0.5"}), {"--supersample", "0.5"});
-  expect_refused(render({"--radius", "1"}), {"--radius: found without --particles"});
-  expect_refused(render({"--render", "octree"}), {"--render", "spline, bih"});
+    EXPECT_THAT(refusal(more), AllOf(HasSubstr(more.front() + ": found with --render bih"), HasSubstr("expected --render spline")));
+  EXPECT_EQ(refusal({"--azimuth", "10", "--shade", "off", "--modulate", "0,1", "--termination", "0", "--ambient", "0.5", "--background", "1,1,1", "--size", "8", "8"}), "");
+  EXPECT_EQ(refusal({"--supersample", "1.5", "--spline", "tricubic", "--prefilter", "none", "--bih-min", "-3", "--bih-lod", "2.5", "--bih-leaf", "4", "--nan", "empty"}), "");
+  EXPECT_THAT(refusal({"--bih-lod", "-1"}), AllOf(HasSubstr("--bih-lod: found -1"), HasSubstr("at least 0")));
+  EXPECT_THAT(refusal({"--bih-leaf", "0"}), HasSubstr("--bih-leaf"));
+  EXPECT_THAT(refusal({"--supersample", "0.5"}), AllOf(HasSubstr("--supersample"), HasSubstr("0.5")));
+  EXPECT_THAT(refusal({"--radius", "1"}), HasSubstr("--radius: found without --particles"));
+}
+
+TEST(VoxelFlags, NeedATransferFunctionAndSomethingToShow) {
+  EXPECT_THAT(render_refusal({"v.nrrd", "--render", "bih", "--json"}), HasSubstr("--tf: found --render bih without it"));
+  EXPECT_THAT(render_refusal({"--tf", "tf.json", "--json"}), AllOf(HasSubstr("VOLUME: found none"), HasSubstr("--particles")));
+  EXPECT_THAT(render_refusal({"v.nrrd", "--tf", "tf.json", "--json", "--bih-lod", "1"}), HasSubstr("--bih-lod: found without --render bih"));
+  EXPECT_THAT(render_refusal({"v.nrrd", "--tf", "tf.json", "--json", "--render", "octree"}), AllOf(HasSubstr("--render"), HasSubstr("spline, bih")));
+  EXPECT_EQ(render_refusal({"--particles", "p.csv", "--radius", "1", "--tf", "tf.json", "--json"}), "");
+  EXPECT_THAT(render_refusal({"--particles", "p.csv", "--tf", "tf.json", "--json", "--render", "spline"}), HasSubstr("--render: found spline with --particles"));
+  EXPECT_THAT(render_refusal({"--particles", "p.csv", "--tf", "tf.json", "--json", "--bih-lod", "1"}), HasSubstr("--bih-lod: found with --particles"));
+  EXPECT_THAT(render_refusal({"v.nrrd", "--particles", "p.csv", "--tf", "tf.json", "--json"}), HasSubstr("--particles: found with the volume v.nrrd"));
+  EXPECT_THAT(render_refusal({"--particles", "p.csv", "--radius", "0", "--tf", "tf.json", "--json"}), AllOf(HasSubstr("--radius: found 0"), HasSubstr("above 0")));
 }
 
 TEST_F(VoxelsOf, RefuseParticlesThatAreNone) {
@@ -130,10 +145,6 @@ TEST_F(VoxelsOf, RefuseParticlesThatAreNone) {
   refused("x,y,z,radius\n0,0,0\n", {}, {"p.csv:2: found '0,0,0'", "four numbers x,y,z,radius"});
   refused("x,y,z,mass\n0,0,0,1\n", {}, {"p.csv:1: found 'x,y,z,mass'"});
   refused("x,y,z\n", {"--radius", "1"}, {"p.csv: found no particle"});
-  refused("0,0,0\n", {"--radius", "0"}, {"--radius: found 0", "above 0"});
-  refused("0,0,0\n", {"--radius", "1", "--render", "spline"}, {"--render: found spline with --particles"});
-  refused("0,0,0\n", {"--radius", "1", "--bih-lod", "1"}, {"--bih-lod: found with --particles"});
-  refused("0,0,0\n", {"--radius", "1", volume}, {"--particles: found with the volume"});
 }
 
 TEST_F(VoxelsOf, LeaveOutOrFillSamplesThatAreNotFinite) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include "accel/particles.h"
 #include "accel/volume_voxels.h"
@@ -305,6 +306,17 @@ TEST(VoxelKernel, ReadsItsParametersWhereCppPutsThem) {
   const std::map<std::string, std::size_t> expected{MEMBER(root_low), MEMBER(root_step), MEMBER(edge), MEMBER(counts), MEMBER(modulation)};
 #undef MEMBER
   EXPECT_EQ(offsets, expected);
+}
+
+TEST(VoxelKernel, BindsWhatEachVariantNeedsAndNothingElse) {
+  for (int bits = 0; bits < 16; ++bits) {
+    const VoxelVariant variant{.spheres = (bits & 1) != 0, .lit = (bits & 2) != 0, .modulated = (bits & 4) != 0, .cost = (bits & 8) != 0};
+    const gpu::Reflection reflection = gpu::reflect(gpu::compile([](std::string_view name) { return shader_file(name); }, voxel_kernel(variant)));
+    std::set<std::string> bound, expected{"uniforms", "voxelUniforms", "voxelNodes", "voxelData", "voxelPlaces", "transferTable", "Color", "Hit"};
+    for (const gpu::Binding& b : reflection.bindings) bound.insert(b.name);
+    if (variant.cost) expected.insert("Cost");
+    EXPECT_EQ(bound, expected) << bits;
+  }
 }
 
 }  // namespace
