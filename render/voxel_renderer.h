@@ -8,6 +8,7 @@
 #include "accel/voxels.h"
 #include "gpu/gpu.h"
 #include "render/renderer.h"
+#include "shaders/shared/trace_parameters.h"
 #include "shaders/shared/voxel_parameters.h"
 
 namespace quincunx {
@@ -47,6 +48,10 @@ class VoxelRenderer final : public Renderer {
   const gpu::Pipeline& pipeline(const VoxelVariant& variant, double& compile_ms);
   void upload_table(const DirectVolume& volume, RenderStats& stats);
   void upload_parameters(const Scene& scene);
+  /// Of the picture; parameters_ becomes their buffer, to which they are still to be uploaded.
+  TraceParameters make_parameters(const Scene& scene);
+  /// Runs the kernel over no pixel: drivers compile the last of it when it first runs.
+  void finish_compiling(const gpu::Pipeline& pipeline, const Scene& scene, const Band& band);
   Band make_band(const Scene& scene) const;
   /// One frame, milliseconds; copied to `frame` where there is one.
   double trace(const gpu::Pipeline& pipeline, const Scene& scene, const Band& band, Frame* frame, const Progress& progress);
