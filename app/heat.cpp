@@ -26,6 +26,8 @@ std::size_t cost_channel(HeatKind kind) {
 
 /// What the numbers are.
 std::string meaning(HeatKind kind, const Scene& scene, const RenderStats& stats) {
+  if (stats.voxels)
+    return kind == HeatKind::evaluations ? "voxels that a ray looks at" : kind == HeatKind::steps ? "nodes of the tree that a ray visits" : "voxels that a ray passes";
   const char* ray = scene.stub_sampling ? "the whole ray" : "a ray";
   if (kind == HeatKind::evaluations)
     return scene.intersect == Intersect::exact ? "polynomial pieces evaluated along a ray" : "samples of the spline along a ray";

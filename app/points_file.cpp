@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "app/values.h"
 #include "lattice/error.h"
@@ -23,17 +25,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-bool is_header(std::string_view line) {
-  std::string letters;
-  for (const char c : line) {
-    if (blanks.find(c) == std::string_view::npos) letters += c;
-  }
-  return letters == "x,y,z" || letters == "X,Y,Z";
-}
-
 }  // namespace
 
-PointsFile::PointsFile(const std::string& path) : path_(path) {
+PointsFile::PointsFile(const std::string& path, std::vector<std::string> known) : path_(path), known_(std::move(known)), values_(known_.size()) {
   // A pipe has nothing left when the points are read for the second time, and may keep its reader waiting.
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
@@ -54,26 +48,47 @@ std::optional<glm::dvec3> PointsFile::next() {
     std::string_view line(text.data(), std::size_t(file_.gcount()) - (file_.eof() ? 0 : 1));
     if (number_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
     line = trimmed(line);
-    if (line.empty() || (number_ == 1 && is_header(line))) continue;
+    if (line.empty() || (number_ == 1 && read_header(line))) continue;
     return parse(line);
   }
   if (!file_.bad() && !file_.eof())
-    throw InputError(fmt::format("{}:{}: found a line of more than {} bytes, expected three numbers x,y,z", path_, number_ + 1, kLongestLine));
+    throw InputError(fmt::format("{}:{}: found a line of more than {} bytes, expected {}", path_, number_ + 1, kLongestLine, expected()));
   if (file_.bad()) throw InputError(fmt::format("{}: cannot be read after line {}", path_, number_));
   return std::nullopt;
 }
 
-glm::dvec3 PointsFile::parse(std::string_view line) const {
-  const std::string place = fmt::format("{}:{}", path_, number_);
-  const std::size_t first = line.find(','), second = line.find(',', first + 1);
-  const bool three = first != std::string_view::npos && second != std::string_view::npos &&
-                     line.find(',', second + 1) == std::string_view::npos;
-  if (!three) {
-    throw InputError(fmt::format("{}: found {}, expected three numbers x,y,z", place, in_quotes(line)));
+bool PointsFile::read_header(std::string_view line) {
+  std::string letters;
+  for (const char c : line) {
+    if (blanks.find(c) == std::string_view::npos) letters += c;
   }
-  return {parse_number(trimmed(line.substr(0, first)), place),
-          parse_number(trimmed(line.substr(first + 1, second - first - 1)), place),
-          parse_number(trimmed(line.substr(second + 1)), place)};
+  const std::vector<std::string_view> names = split_list(letters);
+  const auto are = [&](std::string_view x, std::string_view y, std::string_view z) { return names.size() >= 3 && names[0] == x && names[1] == y && names[2] == z; };
+  if (!are("x", "y", "z") && !are("X", "Y", "Z")) return false;
+  std::vector<std::size_t> columns;
+  for (std::size_t n = 3; n < names.size(); ++n) {
+    const auto found = std::find(known_.begin(), known_.end(), names[n]);
+    const auto number = std::size_t(found - known_.begin());
+    if (found == known_.end() || std::find(columns.begin(), columns.end(), number) != columns.end()) return false;
+    columns.push_back(number);
+  }
+  columns_ = std::move(columns);
+  return true;
+}
+
+std::string PointsFile::expected() const {
+  constexpr std::array<std::string_view, 3> counts{"three", "four", "five"};
+  std::string names = "x,y,z";
+  for (const std::size_t n : columns_) names += "," + known_[n];
+  return fmt::format("{} numbers {}", columns_.size() < counts.size() ? counts[columns_.size()] : "some", names);
+}
+
+glm::dvec3 PointsFile::parse(std::string_view line) {
+  const std::string place = fmt::format("{}:{}", path_, number_);
+  const std::vector<std::string_view> fields = split_list(line);
+  if (fields.size() != 3 + columns_.size()) throw InputError(fmt::format("{}: found {}, expected {}", place, in_quotes(line), expected()));
+  for (std::size_t n = 0; n < columns_.size(); ++n) values_[columns_[n]] = parse_number(trimmed(fields[3 + n]), place);
+  return {parse_number(trimmed(fields[0]), place), parse_number(trimmed(fields[1]), place), parse_number(trimmed(fields[2]), place)};
 }
 
 }  // namespace quincunx

@@ -15,10 +15,12 @@
 #include "app/render_report.h"
 #include "app/values.h"
 #include "app/volume_input.h"
+#include "app/voxel_input.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "io/sample_file.h"
 #include "io/volume_file.h"
+#include "render/voxel_renderer.h"
 
 namespace quincunx {
 namespace {
@@ -56,7 +58,8 @@ void write_outputs(const RenderFlags& flags, const Frame& frame, const std::opti
 /// One line: where the pictures are, what was hit, how long a frame took; and a second one where nothing was hit
 /// although something could have been.
 void print_summary(const RenderFlags& flags, const Outcome& outcome) {
-  const std::string made = flags.images.empty() ? flags.volume : fmt::format("{}", fmt::join(flags.images, ", "));
+  const std::string& shown = flags.volume.empty() ? flags.voxel.particles : flags.volume;
+  const std::string made = flags.images.empty() ? shown : fmt::format("{}", fmt::join(flags.images, ", "));
   const Json& ms = outcome.stats["trace_ms"]["median"];
   const std::uint64_t hits = outcome.stats["hits"], rays = outcome.stats["rays"];
   fmt::print(stderr, "{}: {}{} on {}\n", made,
@@ -70,9 +73,10 @@ void print_summary(const RenderFlags& flags, const Outcome& outcome) {
   }
 }
 
-/// A volume that was opened: with its samples, or, where they stay in the file, with a source of them.
+/// A volume that was opened: with its samples, or, where they stay in the file, with a source of them; or what is seen of it, as voxels.
 struct Opened {
-  Volume volume;
+  Volume volume;  ///< without samples where there is a source, or where particles have none
+  std::optional<VoxelInput> voxels;
   std::shared_ptr<const SampleSource> source;
   Renderer::Config config;  ///< with a pool where there is a source
   double read_ms = 0.0;
@@ -87,6 +91,15 @@ std::optional<std::uint64_t> pool_bytes(const RenderFlags& flags) {
   if (flags.verbosity == Verbosity::normal)
     fmt::print(stderr, "note: {}: {}: rendered through a pool of {} (--pool)\n", flags.volume, why, readable_bytes(double(bytes)));
   return bytes;
+}
+
+Opened open_voxels(const RenderFlags& flags, ProgressBar& bar) {
+  Opened opened;
+  opened.config = flags.config;
+  opened.voxels = read_voxels(flags, bar);
+  opened.volume = std::move(opened.voxels->volume);
+  opened.read_ms = opened.voxels->read_ms;
+  return opened;
 }
 
 Opened open_volume(const RenderFlags& flags, ProgressBar& bar) {
@@ -104,11 +117,19 @@ Opened open_volume(const RenderFlags& flags, ProgressBar& bar) {
   return opened;
 }
 
+std::unique_ptr<Renderer> open_renderer(const RenderFlags& flags, Opened& opened) {
+  if (opened.voxels) return make_voxel_renderer(flags.device, std::move(opened.voxels->voxels), {.leaf_size = flags.voxel.leaf, .validation = opened.config.validation});
+  return opened.source ? make_renderer(flags.device, opened.source, flags.volume, opened.config) : make_renderer(flags.device, opened.volume, opened.config);
+}
+
 Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Request& request, const Opened& opened, ProgressBar& bar) {
   RenderStats stats;
   const Frame frame = renderer.render(request, stats, bar.stage("rendering"));
-  Outcome outcome{stats_json(flags.volume, request, stats, opened.read_ms), std::nullopt, request.scene.stub_sampling};
-  if (!opened.source) outcome.range = sample_range(opened.volume);
+  Outcome outcome{opened.voxels ? voxels_json(flags.volume.empty() ? flags.voxel.particles : flags.volume, request, stats,
+                                              {opened.voxels->read_ms, opened.voxels->resample_ms, opened.voxels->voxels_ms})
+                                : stats_json(flags.volume, request, stats, opened.read_ms),
+                  std::nullopt, request.scene.stub_sampling};
+  if (!opened.source && !flags.volume.empty()) outcome.range = sample_range(opened.volume);
   std::optional<HeatMap> heat;
   if (flags.heat != HeatKind::none) {
     check_heat(flags.heat, request.scene, stats.skip.structure);
@@ -122,10 +143,9 @@ Outcome trace(const RenderFlags& flags, Renderer& renderer, const Renderer::Requ
 void render(const RenderFlags& flags) {
   check_render_flags(flags);
   ProgressBar bar(flags.verbosity);
-  const Opened opened = open_volume(flags, bar);
+  Opened opened = flags.voxel.voxels() ? open_voxels(flags, bar) : open_volume(flags, bar);
   const Renderer::Request request = make_request(flags, opened.volume);
-  const auto renderer = opened.source ? make_renderer(flags.device, opened.source, flags.volume, opened.config)
-                                      : make_renderer(flags.device, opened.volume, opened.config);
+  const auto renderer = open_renderer(flags, opened);
   stop_if_interrupted();
   Json printed = Json::object();
   Outcome outcome;

@@ -132,6 +132,8 @@ void check_count(std::size_t found, std::size_t surfaces, const char* flag) {
 
 void check_heat_flag(const RenderFlags& flags) {
   if (flags.heat == HeatKind::none) return;
+  if (flags.heat == HeatKind::depth && flags.voxel.voxels())
+    throw InputError("--heat: found depth with voxels, whose tree has no blocks; expected evaluations, steps or intervals");
   if (std::all_of(flags.images.begin(), flags.images.end(), is_exr))
     throw InputError("--heat: found no .png among the pictures of -o, expected -o OUT.png for the heat picture");
   if (flags.heat == HeatKind::depth && flags.device == "cpu")
@@ -154,7 +156,7 @@ void check_outputs(const RenderFlags& flags) {
 
 /// What was asked for, or what fits.
 Intersect intersect_of(const RenderFlags& flags) {
-  if (flags.intersect || flags.config.spline.empty()) return flags.intersect.value_or(Intersect::exact);
+  if (flags.voxel.voxels() || flags.intersect || flags.config.spline.empty()) return flags.intersect.value_or(Intersect::exact);
   const Intersect fitting = default_intersect(flags.device, *make_spline(flags.config.spline));
   if (fitting == Intersect::march && !flags.isovalues.empty() && flags.verbosity == Verbosity::normal)
     fmt::print(stderr, "note: pieces of {} are no polynomials: surfaces are marched (--intersect march); --device cpu finds first roots\n", flags.config.spline);
@@ -170,12 +172,14 @@ bool is_exr(const std::string& path) {
 }
 
 void add_render_flags(CLI::App& app, RenderFlags& flags) {
-  app.add_option("VOLUME", flags.volume, "NRRD file of a volume")->required();
+  flags.app = &app;
+  app.add_option("VOLUME", flags.volume, "NRRD file of a volume; none with --particles");
   add_output_flags(app, flags);
   add_surface_flags(app, flags);
   add_volume_flags(app, flags.look);
   add_camera_flags(app, flags.camera);
   add_method_flags(app, flags);
+  add_voxel_flags(app, flags.voxel);
 }
 
 CLI::Option* add_isovalues(CLI::App& app, RenderFlags& flags) {
@@ -215,6 +219,7 @@ void check_something_is_seen(const RenderFlags& flags) {
 }
 
 void check_render_flags(const RenderFlags& flags) {
+  check_voxel_flags(*flags.app, flags.voxel, flags.volume, flags.look.transfer_function);
   check_something_is_seen(flags);
   if (!flags.renders() && !flags.explain) {
     throw InputError("-o: found nothing to make, expected -o OUT.png or OUT.exr, --stats, --json or --explain");

@@ -11,12 +11,14 @@
 #include "app/progress_bar.h"
 #include "app/skip_flags.h"
 #include "app/volume_flags.h"
+#include "app/voxel_flags.h"
 #include "render/renderer.h"
 
 namespace quincunx {
 
 struct RenderFlags {
-  std::string volume;
+  const CLI::App* app = nullptr;  ///< of add_render_flags: knows which flags were given
+  std::string volume;             ///< empty for particles
   std::vector<std::string> images;  ///< -o
   std::string stats;                ///< --stats, empty for none
   HeatKind heat = HeatKind::none;   ///< of every .png
@@ -30,6 +32,7 @@ struct RenderFlags {
   Scene scene;                    ///< all but its surfaces, camera and intersect
   bool background_given = false;  ///< a PNG then hides what is behind it; else it lets it through
   SkipFlags skip;
+  VoxelFlags voxel;
   Renderer::Config config;
   std::string scratch;  ///< folder for unpacked samples of a pool
   std::string device;

@@ -67,6 +67,33 @@ double percentile(std::vector<double> values, double fraction) {
   return std::lerp(values[below], values[above], place - double(below));
 }
 
+// Keys that pictures of splines and of voxels have.
+
+void add_camera(const Scene& scene, Json& json) {
+  json["camera"] = {{"eye", to_json(scene.camera.eye)},
+                    {"target", to_json(scene.camera.target)},
+                    {"up", to_json(scene.camera.up)},
+                    {"fov", scene.camera.fov}};
+}
+void add_trace(const RenderStats& stats, Json& json) {
+  const std::vector<double>& frames = stats.trace_ms;
+  json["trace_ms"]["frames"] = frames.size();
+  for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
+    json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
+  }
+}
+void add_counts(const RenderStats& stats, Json& json) {
+  json["rays"] = stats.rays;
+  json["hits"] = stats.hits;
+  json["evaluations"] = stats.evaluations;
+  json["steps"] = stats.steps;
+  json["intervals"] = stats.intervals;
+}
+void add_device_bytes(const RenderStats& stats, Json& json) {
+  json["device_bytes"] = Json::object();
+  for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;
+}
+
 /// How a volume was looked at.
 Json volume_json(const DirectVolume& volume) {
   Json json{{"classify", volume.classify == Classify::post ? "post" : "pre-integrated"}, {"entries", volume.table_entries()},
@@ -84,7 +111,6 @@ Json bricks_json(const BrickStats& bricks) {
 
 Json stats_json(const std::string& volume, const Renderer::Request& request, const RenderStats& stats, double read_ms) {
   const Scene& scene = request.scene;
-  const std::vector<double>& frames = stats.trace_ms;
   Json json{{"volume", volume}, {"device", stats.device}, {"size", {scene.width, scene.height}}};
   json["isovalues"] = isovalues_of(scene.isosurfaces);
   if (scene.volume) json["transfer_function"] = volume_json(*scene.volume);
@@ -101,23 +127,13 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   if (has_large_leaves(stats.skip)) json["least_leaf"] = stats.skip.least_leaf;
   if (stats.blocks > 0) json["block"] = stats.skip.block;
   json["cell_test"] = stats.skip.cell_test;
-  json["camera"] = {{"eye", to_json(scene.camera.eye)},
-                    {"target", to_json(scene.camera.target)},
-                    {"up", to_json(scene.camera.up)},
-                    {"fov", scene.camera.fov}};
-  json["trace_ms"]["frames"] = frames.size();
-  for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
-    json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
-  }
+  add_camera(scene, json);
+  add_trace(stats, json);
   json["stages_ms"] = {{"read", read_ms},           {"prefilter", stats.prefilter_ms},
                        {"bounds", stats.bounds_ms}, {"classify", stats.classify_ms},
                        {"cluster", stats.cluster_ms}, {"build", stats.build_ms},
                        {"table", stats.table_ms},   {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
-  json["rays"] = stats.rays;
-  json["hits"] = stats.hits;
-  json["evaluations"] = stats.evaluations;
-  json["steps"] = stats.steps;
-  json["intervals"] = stats.intervals;
+  add_counts(stats, json);
   json["blocks"] = stats.blocks;
   json["active_blocks"] = stats.active_blocks;
   json["active_cells"] = stats.active_cells;
@@ -127,8 +143,30 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["one_child"] = stats.one_child;
   json["depth"] = stats.depth;
   if (stats.bricks.edge > 0) json["bricks"] = bricks_json(stats.bricks);
-  json["device_bytes"] = Json::object();
-  for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;
+  add_device_bytes(stats, json);
+  return json;
+}
+
+Json voxels_json(const std::string& subject, const Renderer::Request& request, const RenderStats& stats, const VoxelTimes& times) {
+  const Scene& scene = request.scene;
+  const DirectVolume& look = *scene.volume;
+  const VoxelStats& voxels = *stats.voxels;
+  Json json{{"volume", subject}, {"device", stats.device}, {"size", {scene.width, scene.height}}, {"render", "bih"}};
+  json["transfer_function"] = {{"shade", look.shade}, {"termination", look.termination}};
+  if (look.modulated()) json["transfer_function"]["modulate"] = {look.modulate_from, look.modulate_to};
+  add_camera(scene, json);
+  add_trace(stats, json);
+  json["stages_ms"] = {{"read", times.read}, {"resample", times.resample}, {"voxels", times.voxels}, {"build", stats.build_ms},
+                       {"table", stats.table_ms}, {"upload", stats.upload_ms}, {"compile", stats.compile_ms}};
+  add_counts(stats, json);
+  json["shape"] = voxels.shape;
+  json["voxels"] = voxels.voxels;
+  json["samples"] = voxels.samples;
+  json["nodes"] = voxels.nodes;
+  json["one_child"] = voxels.one_child;
+  json["depth"] = voxels.depth;
+  json["bytes"] = {{"data", voxels.leaf_bytes}, {"places", voxels.place_bytes}, {"nodes", voxels.node_bytes}, {"grid", voxels.grid_bytes}};
+  add_device_bytes(stats, json);
   return json;
 }
 

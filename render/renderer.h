@@ -14,6 +14,7 @@
 #include "lattice/sample_source.h"
 #include "render/precision.h"
 #include "render/scene.h"
+#include "render/voxel_stats.h"
 #include "spline/spline.h"
 #include "spline/storage.h"
 
@@ -49,6 +50,7 @@ struct RenderStats {
   std::uint64_t rays = 0, hits = 0;
   BrickStats bricks;
   std::uint64_t evaluations = 0, steps = 0, intervals = 0;  ///< of all rays; only where asked for
+  std::optional<VoxelStats> voxels;  ///< of pictures of voxels
 };
 
 /// One thing a kernel can contain, whether it does, and why (`--explain`).

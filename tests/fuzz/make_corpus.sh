@@ -44,6 +44,7 @@ put points/windows.csv '\xEF\xBB\xBFX, Y, Z\r\n 1 ,\t2, +3e2\r\n\r\n-0,1e-300,1e
 put points/plain.csv '1,2,3\n'
 put points/two_numbers.csv '1,2,3\n4,5\n'
 put points/not_finite.csv '1,2,3\n4,inf,nan\n'
+put points/columns.csv 'x,y,z,density,radius\n0,0,0,1,0.5\n3,0,0,-2,1e-3\n'
 
 put values/number '-12.5e-3'
 put values/list '40,150,+1e2'

@@ -20,6 +20,11 @@ void feed_points(std::string_view input) {
     }
     expect(6 * count <= input.size() + 1, "no more points than there are lines of x,y,z");
   });
+  accepts(file.path(), [&] {
+    PointsFile points(file.path(), {"radius", "density"});
+    while (points.next())
+      for (const std::size_t n : {std::size_t(0), std::size_t(1)}) expect(std::isfinite(points.column(n).value_or(0.0)), "finite columns");
+  });
 }
 
 }  // namespace quincunx::fuzz
