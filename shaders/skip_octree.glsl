@@ -1,32 +1,24 @@
-// The min/max octree (accel/octree.h), one level a step. parameters.structure: x the last level, which is one node, y its place
-// in octreeBounds, z the number of windows.
+// The min/max octree (accel/octree.h), one level a step. parameters.structure: xy the pyramid, z the number of windows.
+#include "pyramid.glsl"
 #include "windows.glsl"
 
 layout(binding = 3) uniform usamplerBuffer octreeBounds;
 
 struct SkipState {
-  int level;   // to look at next
-  int offset;  // its place in octreeBounds
+  PyramidLevel level;  // to look at next
 };
-SkipState begin_skip() { return SkipState(parameters.structure.x, parameters.structure.y); }
-
-ivec3 octree_size(int level) { return (parameters.blocks.xyz + ((1 << level) - 1)) >> level; }
+SkipState begin_skip() { return SkipState(pyramid_top()); }
 
 bool skip_step(Ray ray, ivec3 cell, real t, bool asked, inout SkipState state, out real from, out real until) {
-  int shift = parameters.blocks.w + state.level;
+  int shift = pyramid_shift(state.level);
   ivec3 node = cell >> shift;
-  ivec3 size = octree_size(state.level);
-  uvec2 bounds = texelFetch(octreeBounds, state.offset + (node.z * size.y + node.y) * size.x + node.x).rg;
-  bool touches = touches_window(bounds);
+  bool touches = touches_window(texelFetch(octreeBounds, pyramid_node(state.level, node)).rg);
   until = exit_time(ray, node << shift, 1 << shift);
   from = touches ? t : until;
-  bool deeper = touches && state.level > 0;
+  bool deeper = touches && state.level.number > 0;
   // Behind an answer the next node may be larger.
-  int level = deeper ? state.level - 1 : min(state.level + 1, parameters.structure.x);
-  ivec3 finer = octree_size(max(state.level - 1, 0));
-  int up = level > state.level ? size.x * size.y * size.z : 0;
-  int offset = deeper ? state.offset - finer.x * finer.y * finer.z : state.offset + up;
-  state.level = asked ? level : state.level;
-  state.offset = asked ? offset : state.offset;
+  PyramidLevel next = pyramid_next(state.level, deeper);
+  state.level.number = asked ? next.number : state.level.number;
+  state.level.offset = asked ? next.offset : state.level.offset;
   return asked && !deeper;
 }
