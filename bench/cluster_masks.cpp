@@ -7,8 +7,8 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "bench/portable_random.h"
 #include "lattice/error.h"
 
 namespace quincunx {
@@ -16,20 +16,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-
-/// Numbers that every standard library draws alike.
-class Random {
- public:
-  double uniform(double low, double high) { return low + (high - low) * 0x1p-32 * double(engine_()); }
-  dvec3 point(double edge) { return {uniform(0.0, edge), uniform(0.0, edge), uniform(0.0, edge)}; }
-  dvec3 direction() {
-    const double z = uniform(-1.0, 1.0), angle = uniform(0.0, 2.0 * pi), r = std::sqrt(1.0 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-  }
-
- private:
-  std::mt19937 engine_{7};
-};
 
 /// Makes blocks active whose middles lie in shapes. Places in blocks.
 class Painter {
@@ -73,7 +59,7 @@ class Painter {
 bool outside(const dvec3& p, double edge) { return glm::clamp(p, 0.0, edge) != p; }
 
 void strands(Painter& painter) {
-  Random random;
+  PortableRandom random;
   while (painter.active_part() < 1.0 / 12.0) {
     const double radius = random.uniform(1.0, 2.0);
     dvec3 p = random.point(painter.edge()), d = random.direction();
@@ -85,7 +71,7 @@ void strands(Painter& painter) {
 }
 
 void solid_parts(Painter& painter) {
-  Random random;
+  PortableRandom random;
   const double edge = painter.edge();
   while (painter.active_part() < 1.0 / 7.0) {
     const dvec3 middle = random.point(edge);
@@ -94,7 +80,7 @@ void solid_parts(Painter& painter) {
 }
 
 /// A vessel from p along d, then the two that it divides into.
-void vessel(Painter& painter, Random& random, dvec3 p, dvec3 d, double radius) {
+void vessel(Painter& painter, PortableRandom& random, dvec3 p, dvec3 d, double radius) {
   if (radius < 0.7) return;
   const double length = radius * random.uniform(6.0, 10.0), step = 0.5 * radius;
   for (double along = 0.0; along < length; along += step, p += step * d) {
@@ -107,7 +93,7 @@ void vessel(Painter& painter, Random& random, dvec3 p, dvec3 d, double radius) {
 }
 
 void vessels(Painter& painter) {
-  Random random;
+  PortableRandom random;
   const double edge = painter.edge();
   for (int n = 0; n < 3; ++n) vessel(painter, random, edge * dvec3{0.25 + 0.25 * n, 0.5, 0.0}, dvec3(0.0, 0.0, 1.0), std::max(edge / 24.0, 1.0));
 }
@@ -124,7 +110,7 @@ void gyroid(Painter& painter) {
 }
 
 void noise(Painter& painter) {
-  Random random;
+  PortableRandom random;
   painter.fill_all([&](const dvec3&) { return random.uniform(0.0, 1.0) < 0.1; });
 }
 

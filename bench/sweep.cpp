@@ -21,6 +21,7 @@
 #include "bench/skip_lists.h"
 #include "bench/sweep_bricks.h"
 #include "bench/sweep_plot.h"
+#include "bench/sweep_preset.h"
 #include "bench/sweep_report.h"
 #include "bench/views.h"
 #include "io/atomic_file.h"
@@ -31,7 +32,9 @@ namespace quincunx {
 namespace {
 
 struct SweepFlags {
-  std::string volume, folder, device;
+  std::vector<std::string> volumes;  ///< one, but with a preset
+  std::string folder, device;
+  PresetFlags preset;
   RenderFlags scene;  ///< isovalues, transfer function, size, intersection, spline
   SweepChoices choices{.labels = {skip_labels().begin(), skip_labels().end()}};
   std::vector<int> bricks;  ///< edges, ascending
@@ -102,16 +105,18 @@ void check_sweep_flags(const SweepFlags& flags) {
     throw InputError("--bricks: found --intersect march, expected --intersect exact");
 }
 
-void sweep(const SweepFlags& flags) {
+void sweep_one_volume(const SweepFlags& flags) {
+  if (flags.volumes.size() != 1)
+    throw InputError(fmt::format("VOLUME: found {} file{}, expected one, or --preset", flags.volumes.size(), flags.volumes.size() == 1 ? "" : "s"));
   check_sweep_flags(flags);
   OutputFolder folder(flags.folder);
   ProgressBar bar(flags.verbosity);
   const Scene scene = make_scene(flags.scene);
-  const Volume volume = read_finite_volume(flags.volume, bar.stage("reading"), flags.scene.config.nan);
+  const Volume volume = read_finite_volume(flags.volumes.front(), bar.stage("reading"), flags.scene.config.nan);
   const auto renderer = make_renderer(flags.device, volume, flags.scene.config);
   folder.prepare({"sweep.csv", "sweep.json", "sweep.md", "sweep.svg"});
 
-  SweepReport report{.volume = flags.volume,
+  SweepReport report{.volume = flags.volumes.front(),
                      .spline = flags.scene.config.spline.empty() ? std::string(default_spline(volume.lattice)) : flags.scene.config.spline,
                      .isovalues = flags.scene.isovalues,
                      .transfer_function = flags.scene.look.transfer_function,
@@ -143,6 +148,21 @@ void sweep(const SweepFlags& flags) {
   if (!report.differing().empty()) throw std::runtime_error(sweep_pictures(report));
 }
 
+void sweep(const CLI::App& app, const SweepFlags& flags) {
+  if (flags.preset.list) return list_presets();
+  check_preset_flags(app, flags.preset);
+  if (flags.folder.empty()) throw InputError("--output: found none, expected a folder to write to");
+  if (flags.preset.name.empty()) return sweep_one_volume(flags);
+  refuse_reference(flags.device);
+  const PresetWishes wishes{.volumes = flags.volumes,
+                            .thresholds = flags.scene.isovalues,
+                            .spline = flags.scene.config.spline,
+                            .device = flags.device,
+                            .size = flags.preset.full ? PresetSize::full() : PresetSize{},
+                            .labels = {skip_labels().begin(), skip_labels().end()}};
+  sweep_preset(flags.preset, wishes, flags.folder, flags.json, flags.verbosity);
+}
+
 void add_scene_flags(CLI::App& app, RenderFlags& flags) {
   add_isovalues(app, flags)->description("Isovalues; several are rendered see-through as `quincunx render` does");
   add_size(app, flags.scene.width, flags.scene.height);
@@ -170,8 +190,9 @@ Command sweep_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("sweep", "Compare the ways to skip empty space on a volume");
   app->footer(
       "Measures every structure with every block size, none, and what --skip auto chooses: frames in turns, stages, bytes,\n"
-      "counts; and compares their pictures, bit for bit. Writes sweep.csv, sweep.json, sweep.md and, with gnuplot, sweep.svg to a folder. Ctrl-C keeps what was measured.");
-  app->add_option("VOLUME", flags->volume, "NRRD file of a volume")->required();
+      "counts; and compares their pictures, bit for bit. Writes sweep.csv, sweep.json, sweep.md and, with gnuplot, sweep.svg to a folder. Ctrl-C keeps what was measured.\n"
+      "--preset makes a published experiment again and writes NAME.csv, NAME.json, NAME.md and NAME.svg; --list-presets says which there are.");
+  app->add_option("VOLUME", flags->volumes, "NRRD file of a volume; of several with --preset");
   add_scene_flags(*app, flags->scene);
   add_structures(*app, flags->choices.labels);
   add_blocks(*app, "--blocks", flags->choices.blocks);
@@ -182,9 +203,10 @@ Command sweep_command(CLI::App& program) {
   add_integer(*app, "--repeat", flags->rounds, 1, 100000, "Rounds: timed frames of each setting and view");
   add_device(*app, flags->device);
   app->add_flag("--json", flags->json, "Print JSON instead of the tables");
-  app->add_option("-o,--output", flags->folder, "Folder to write to; made if it is not there")->type_name("DIR")->required();
+  app->add_option("-o,--output", flags->folder, "Folder to write to; made if it is not there")->type_name("DIR");
+  add_preset_flags(*app, flags->preset);
   add_quiet(*app, flags->verbosity);
-  return {app, [flags] { sweep(*flags); }};
+  return {app, [flags, app] { sweep(*app, *flags); }};
 }
 
 }  // namespace quincunx
