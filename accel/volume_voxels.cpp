@@ -73,7 +73,8 @@ class Collector {
   /// Adds a cuboid to the list.
   void put(const Merged& m, int coset, const glm::i64vec3& index, int level) {
     const std::int64_t step = 2 * lattice_step(volume_.lattice);  // half cells from sample to sample
-    const glm::i64vec3 low = step * index + std::int64_t(volume_.lattice == LatticeKind::bcc ? 2 * coset : 0) - glm::i64vec3(voxels_.edge) / std::int64_t(2) + std::int64_t(kVoxelOrigin);
+    const glm::i64vec3 centre = step * index + std::int64_t(2 * coset);
+    const glm::i64vec3 low = centre - glm::i64vec3(voxels_.edge) / std::int64_t(2) + std::int64_t(kVoxelOrigin);
     const glm::dvec3 gradient = m.gradient / m.count;
     cuboids_.push_back({{std::uint16_t(low.x), std::uint16_t(low.y), std::uint16_t(low.z)}, std::uint16_t(level), float(m.mean()), glm::vec3(gradient)});
   }

@@ -14,8 +14,8 @@ namespace quincunx {
 /// overlapping, layer by layer along z, and their volume is that of the truncated octahedra which they stand for. Cuboids at the border reach beyond the domain.
 struct VoxelConfig {
   double minimum = -std::numeric_limits<double>::infinity();  ///< samples below it are no voxels, nor are NaNs and infinities
-  /// Level of detail: siblings (the eight halves of a cube; on the BCC lattice the four of a square of one coset's layer), all of them voxels, become one of their mean density and gradient as long as
-  /// no sample in it differs from the mean by more than this (data units). None: not merged.
+  /// Level of detail: siblings (the eight halves of a cube; on the BCC lattice the four of a square of one coset's layer), all of them voxels, become
+  /// one of their mean density and gradient as long as no sample in it differs from the mean by more than this (data units). None: not merged.
   std::optional<double> deviation;
 };
 

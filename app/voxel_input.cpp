@@ -21,8 +21,8 @@ namespace {
 
 /// So many times the samples per axis, by the spline; the domain stays the same.
 Volume supersampled(const RenderFlags& flags, const Volume& volume, ProgressBar& bar) {
-  const auto spline = make_spline(flags.config.spline.empty() ? std::string_view(volume.lattice == LatticeKind::bcc ? "bcc7" : "tricubic") : std::string_view(flags.config.spline),
-                                  volume.lattice);
+  const std::string_view usual = volume.lattice == LatticeKind::bcc ? "bcc7" : "tricubic";
+  const auto spline = make_spline(flags.config.spline.empty() ? usual : std::string_view(flags.config.spline), volume.lattice);
   spline->filter(flags.config.prefilter);
   const glm::dvec3 cells = flags.voxel.supersample * glm::dvec3(domain_max(volume.lattice, volume.extents));
   const Extents extents = volume.lattice == LatticeKind::bcc ? Extents(glm::round(0.5 * (cells + 1.0))) : Extents(glm::round(cells)) + std::int64_t(1);

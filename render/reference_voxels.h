@@ -7,8 +7,9 @@
 
 namespace quincunx {
 
-/// The picture of `voxels` through scene.volume, which is set; the scene has no surfaces. Every ray looks for all voxels that it meets, in boxes about runs of them and in no
-/// tree, and passes them in the order in which it enters them, of two entered at once the one first that it leaves first; each hides as much as its length along the ray is worth. Voxels that overlap are passed one after another, each whole.
+/// The picture of `voxels` through scene.volume, which is set; the scene has no surfaces. Every ray looks for all voxels that it meets, in boxes about runs
+/// of them and in no tree, and passes them in the order in which it enters them, of two entered at once the one first that it leaves first; each hides as
+/// much as its length along the ray is worth. Voxels that overlap are passed one after another, each whole.
 /// Z is where the ray leaves the voxel by which half of what is behind is hidden.
 Frame render_reference_voxels(const Voxels& voxels, const Scene& scene, const Progress& progress = {});
 

@@ -22,7 +22,8 @@ struct VoxelVariant {
 
 gpu::KernelSource voxel_kernel(const VoxelVariant& variant);
 
-/// Voxels in a bounding interval hierarchy on a Vulkan device. Renders what Scene::volume says, without steps: every voxel that a ray meets is one sample. Z as render_reference_voxels has it.
+/// Voxels in a bounding interval hierarchy on a Vulkan device. Renders what Scene::volume says, without steps: every voxel that a ray meets is one sample.
+/// Z as render_reference_voxels has it.
 class VoxelRenderer final : public Renderer {
  public:
   struct Config {

@@ -1,5 +1,5 @@
-// The voxels that a ray enters next, found in their bounding interval hierarchy (accel/bih_build.h): depth first, the nearer child first, nodes that lie before what has been passed or
-// behind all that is kept passed over.
+// The voxels that a ray enters next, found in their bounding interval hierarchy (accel/bih_build.h): depth first, the nearer child first, nodes
+// that lie before what has been passed or behind all that is kept passed over.
 layout(binding = 24) uniform usamplerBuffer voxelNodes;
 
 const int NEAREST = 8;
