@@ -20,10 +20,9 @@ constexpr const char* kKernel = R"(#version 460
 #include "coefficients.glsl"
 #include "spline.glsl"
 #include "isosurfaces.glsl"
+#include "walk.glsl"
 #ifdef LISTS
 #include "lists.glsl"
-#else
-#include "walk.glsl"
 #endif
 layout(local_size_x = 64) in;
 layout(std430, binding = 20) buffer Tally { uint seen[]; };  // rays, stretches, points, violations of a lane
