@@ -6,12 +6,12 @@
 #pragma once
 
 #include "accel/kernel_windows.h"
-#include "accel/pyramid.h"
 #include "accel/structure.h"
 
 namespace quincunx {
 
-/// A pyramid over the blocks (accel/pyramid.h). The kernel compares nodes with the isovalues itself, so that a change of isovalue builds nothing.
+/// A complete pyramid: level 0 are the blocks, each level above halves their number on every axis (rounding up), the last one is
+/// a single node. The kernel compares nodes with the isovalues itself, so that a change of isovalue builds nothing.
 /// Two buffers:
 ///
 ///   name           element                                            count
@@ -35,7 +35,8 @@ class Octree final : public SkippingStructure {
   };
   std::vector<Node> nodes_;
   std::vector<KernelWindow> windows_;
-  PyramidTop top_;
+  int last_level_ = 0;
+  std::size_t last_offset_ = 0;
   StructureReport report_;  ///< leaves stay 0: which they are is decided in the kernel
   std::uint64_t bounds_version_ = 0, windows_version_ = 0;
 };

@@ -26,7 +26,6 @@ struct SkipConfig {
   int max_cluster = 16;                      ///< of Clustering::cubes: the largest edge in blocks, 1..256
   KdDepth kd = KdDepth::deep;                ///< of kdtree
   double least_leaf = 0.1;                   ///< of KdDepth::shallow and hybrid: no leaf is smaller than this part of the root's volume, above 0, at most 1
-  int most_segments = 16;  ///< of segments: of a ray's list, 1..256; what is beyond is not skipped
   HybridGrid hybrid = HybridGrid::pc;        ///< of hybrid
   RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of the blocks of octree and HybridGrid::mm, which kernels compare themselves
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,14 +25,6 @@ struct StructureBuffer {
   TexelFormat format = TexelFormat::r8;
   std::span<const std::byte> bytes;  ///< never empty
   std::uint64_t version = 0;         ///< another one whenever the bytes have changed
-};
-
-/// Lists that a structure makes for the rays of a picture, in a pass of its own before they go to their first cell.
-struct RayLists {
-  std::string_view shader;  ///< a file of shaders/ that defines void make_list(Ray ray, bool mine), for shaders/list.comp
-  std::string written;      ///< name of the buffer there: a storage block
-  std::string read;         ///< and in the twin: a texel buffer of 2 x 32 bits a pair, 4 x 32 bits with 64-bit floats
-  int pairs = 0;            ///< of numbers of the kernels' precision, of each ray; its place among all is Ray::place
 };
 
 /// What a structure consists of, and what making it took. Milliseconds of the last prepare and build together.
@@ -69,9 +60,6 @@ class SkippingStructure {
   virtual void compare(const Thresholds&) {}
   /// Orders what depends on where rays come from. `eye` in lattice coordinates.
   virtual void arrange(const glm::dvec3& /*eye*/) {}
-
-  /// What it makes for each ray, if anything.
-  virtual std::optional<RayLists> ray_lists() const { return {}; }
 
   /// The buffers to upload; valid until the next prepare, build, compare or arrange.
   virtual std::vector<StructureBuffer> buffers() const = 0;

@@ -75,15 +75,12 @@ void add_camera(const Scene& scene, Json& json) {
                     {"up", to_json(scene.camera.up)},
                     {"fov", scene.camera.fov}};
 }
-void add_frames(const std::vector<double>& frames, Json& json) {
-  json["frames"] = frames.size();
-  for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
-    json[key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
-  }
-}
 void add_trace(const RenderStats& stats, Json& json) {
-  add_frames(stats.trace_ms, json["trace_ms"]);
-  if (!stats.list_ms.empty()) add_frames(stats.list_ms, json["list_ms"]);
+  const std::vector<double>& frames = stats.trace_ms;
+  json["trace_ms"]["frames"] = frames.size();
+  for (const auto& [key, fraction] : {std::pair{"median", 0.5}, {"p5", 0.05}, {"p95", 0.95}}) {
+    json["trace_ms"][key] = frames.empty() ? Json() : Json(percentile(frames, fraction));
+  }
 }
 void add_counts(const RenderStats& stats, Json& json) {
   json["rays"] = stats.rays;
@@ -128,7 +125,6 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   if (stats.skip.structure == "kdtree") json["kd"] = kd_name(stats.skip.kd);
   if (stats.skip.structure == "hybrid") json["hybrid"] = hybrid_name(stats.skip.hybrid);
   if (has_large_leaves(stats.skip)) json["least_leaf"] = stats.skip.least_leaf;
-  if (stats.skip.structure == "segments") json["most_segments"] = stats.skip.most_segments;
   if (stats.blocks > 0) json["block"] = stats.skip.block;
   json["cell_test"] = stats.skip.cell_test;
   add_camera(scene, json);

@@ -97,13 +97,6 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   add_parsed(app, "--least-leaf", leaf, "X", fmt::format("{}", flags.config.least_leaf),
              "Of hybrid and shallow k-d trees: no leaf is smaller than this part of the box around all that is active")
       ->group(group);
-  const auto segments = [&flags](const std::string& text) {
-    flags.config.most_segments = int(parse_integer(text, "--most-segments", 1, 256));
-    flags.most_segments_given = true;
-  };
-  add_parsed(app, "--most-segments", segments, "N", fmt::format("{}", flags.config.most_segments),
-             "Of segments: of a ray's list; the rest of a ray that has more is not skipped")
-      ->group(group);
   add_choice(app, "--range-query", flags.config.range_query,
              {{"intervals", RangeQueryKind::intervals}, {"table", RangeQueryKind::table}, {"irt", RangeQueryKind::irt}},
              "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of the blocks of octree and hybrid mm")
@@ -114,7 +107,6 @@ void check_skip_flags(const SkipFlags& flags) {
   check_given(flags.clustering_given, "--cluster", "bvh", flags.config);
   check_given(flags.kd_given, "--kd", "kdtree", flags.config);
   check_given(flags.hybrid_given, "--hybrid", "hybrid", flags.config);
-  check_given(flags.most_segments_given, "--most-segments", "segments", flags.config);
   if (flags.least_leaf_given && !has_large_leaves(flags.config))
     throw InputError(fmt::format("--least-leaf: found with --skip {}, expected --skip hybrid or --skip kdtree --kd shallow", flags.config.structure));
   if (flags.max_cluster_given && flags.config.clustering != Clustering::cubes)

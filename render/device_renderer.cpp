@@ -112,7 +112,6 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   v.spline_shader = spline_->shader();
   v.structure = structure->name();
   v.structure_shader = structure->shader();
-  if (const auto lists = structure->ray_lists()) v.lists_shader = lists->shader;
   v.cell_test = request.skip.cell_test && request.skip.structure != "none";
   v.intersect = request.scene.intersect;
   v.normal = request.scene.normal == Normal::analytic ? Normal::analytic : Normal::central;
@@ -283,16 +282,9 @@ void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stat
 
 // ---- pictures ----
 
-std::uint64_t DeviceRenderer::list_bytes() const {
-  const std::optional<RayLists> lists = skipping_->ray_lists();
-  return lists ? std::uint64_t(lists->pairs) * 2 * (config_.precision == Precision::float64 ? sizeof(double) : sizeof(float)) : 0;
-}
-
 DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   const std::uint64_t ray_bytes = kRayBytes * (config_.precision == Precision::float64 ? 2 : 1);
-  const std::uint64_t pixel_bytes = std::max({bricks_ ? kParkedBytes : kPixelBytes, ray_bytes, list_bytes()});
-  std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / pixel_bytes));
-  if (const auto lists = skipping_->ray_lists()) pixels = std::min<std::int64_t>(pixels, std::int64_t(limits_.texel_elements / std::uint64_t(lists->pairs)));
+  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / (bricks_ ? kParkedBytes : std::max(kPixelBytes, ray_bytes))));
   const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / scene.width / kTile * kTile);
   Band band;
   band.rows = int(std::min<std::int64_t>(rows, scene.height));
@@ -301,9 +293,6 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   band.hit = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "hit");
   if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
   if (bricks_) band.parked = gpu::create_buffer(device_, bytes / kPixelBytes * kParkedBytes, gpu::BufferUse::storage, "parked");
-  if (list_bytes() > 0)
-    band.lists = gpu::create_buffer(device_, bytes / kPixelBytes * list_bytes(), gpu::BufferUse::texel, "lists of rays",
-                                    config_.precision == Precision::float64 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT);
   band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * ray_bytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
   return band;
 }
@@ -313,7 +302,6 @@ gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Ba
   all.insert(all.end(), {{"uniforms", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
                          {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}, {"voids", void_buffer_}});
   if (bricks_) all.emplace_back("Parked", band.parked);
-  if (const auto lists = skipping_->ray_lists()) all.insert(all.end(), {{lists->written, band.lists}, {lists->read, band.lists}});
   const gpu::Resources coefficients = bricks_ ? bricks_->resources() : texels_.resources();
   all.insert(all.end(), coefficients.begin(), coefficients.end());
   // What the variant leaves out is not bound.
@@ -346,42 +334,36 @@ std::uint32_t DeviceRenderer::rays_per_lane() const {
   return gpu::info(device_).type == "CPU" ? kRaysPerLane : 1;
 }
 
-DeviceRenderer::Times DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress) {
+double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress) {
   std::uint32_t rays = 0;
   gpu::upload(device_, band.rays, std::as_bytes(std::span(&rays, 1)));
-  Times times;
-  for (const KernelPass& pass : kernels) {
-    if (pass.pass == Pass::list || pass.pass == Pass::enter) {  // of all pixels
-      const double ms = gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
-      times.all += ms;
-      if (pass.pass == Pass::list) times.list += ms;
-      if (pass.pass == Pass::enter) gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
-      continue;
-    }
+  const gpu::Pipeline& enter = kernels.front().pipeline;
+  double ms = gpu::dispatch(device_, enter, resources(enter, band), {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
+  gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
+  for (const KernelPass& pass : std::span(kernels).subspan(1)) {
     const std::uint32_t group = kTraceGroup * (pass.pass == Pass::seek ? rays_per_lane() : 1);
     // Until no ray waits for a brick.
     const bool waits = bricks_ && pass.pass != Pass::traverse;
     do {
       if (waits) bricks_->clear_requests();
-      times.all += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+      ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
     } while (waits && bricks_->serve(lattice_eye(scene), progress));
   }
-  return times;
+  return ms;
 }
 
-DeviceRenderer::Times DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
+double DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
   TraceParameters p = make_parameters(scene);
-  Times times;
+  double ms = 0.0;
   for (int row = 0; row < scene.height; row += band.rows) {
     const int rows = std::min(band.rows, scene.height - row);
     p.picture = ivec4(scene.width, scene.height, row, rows);
     gpu::upload(device_, parameters_, std::as_bytes(std::span(&p, 1)));
-    const Times of_band = trace_band(kernels, band, scene, rows, [&](double) { report(progress, double(row) / scene.height); });
-    times.all += of_band.all, times.list += of_band.list;
+    ms += trace_band(kernels, band, scene, rows, [&](double) { report(progress, double(row) / scene.height); });
     if (frame) read_band(band, row, rows, *frame);
     report(progress, double(row + rows) / scene.height);
   }
-  return times;
+  return ms;
 }
 
 void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame) {
@@ -434,7 +416,6 @@ void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   }
   skipping_->describe(stats);
   stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes + band.parked.bytes);
-  if (band.lists.bytes > 0) stats.device_bytes.emplace_back("lists of rays", band.lists.bytes);
   stats.void_cells = voids_ ? voids_->count : 0;
   if (void_buffer_.bytes > 0) stats.device_bytes.emplace_back("void cells", void_buffer_.bytes);
   if (transfer_table_.bytes > 0) stats.device_bytes.emplace_back("transfer table", transfer_table_.bytes);
@@ -476,11 +457,8 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
     stats.compile_ms += rest.ms();
   }
   if (request.repeat > 1) trace(made, visible.scene, band, nullptr, {});  // warm-up
-  for (int i = 0; i < request.repeat; ++i) {
-    const Times times = trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{});
-    stats.trace_ms.push_back(times.all);
-    if (band.lists.bytes > 0) stats.list_ms.push_back(times.list);
-  }
+  for (int i = 0; i < request.repeat; ++i)
+    stats.trace_ms.push_back(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
   describe(band, stats);
   if (request.count_costs) count_costs(visible, stats, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;

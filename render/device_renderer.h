@@ -42,7 +42,6 @@ class DeviceRenderer final : public Renderer {
   struct Band {
     int rows = 0;
     gpu::Buffer color, hit, cost, rays, parked;
-    gpu::Buffer lists;  ///< of RayLists, where the structure makes some
   };
 
   /// What coefficients are on the device.
@@ -68,20 +67,14 @@ class DeviceRenderer final : public Renderer {
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
   /// Makes the table anew where anything that it depends on has changed.
   void upload_transfer_table(const Scene& scene, RenderStats& stats);
-  /// Bytes of a ray's list; 0 where there are none.
-  std::uint64_t list_bytes() const;
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
-  /// Milliseconds of kernels: those of lists of rays, and all together.
-  struct Times {
-    double list = 0.0, all = 0.0;
-  };
-  Times trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
+  double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
   TraceParameters make_parameters(const Scene& scene);
   /// Runs the kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   std::uint32_t rays_per_lane() const;
-  Times trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress);
+  double trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   void count_costs(Request request, RenderStats& stats, const Progress& progress);
   static Frame empty_frame(const Scene& scene);

@@ -30,8 +30,6 @@ bool same_blocks(const std::optional<Classification>& a, const Classification& b
 void check_config(const SkipConfig& config) {
   if (config.max_cluster < 1 || config.max_cluster > 256)
     throw InputError(fmt::format("--max-cluster: found {}, expected 1 to 256", config.max_cluster));
-  if (config.most_segments < 1 || config.most_segments > 256)
-    throw InputError(fmt::format("--most-segments: found {}, expected 1 to 256", config.most_segments));
   if (!(config.least_leaf > 0.0 && config.least_leaf <= 1.0))
     throw InputError(fmt::format("--least-leaf: found {}, expected a number above 0, at most 1", config.least_leaf));
 }

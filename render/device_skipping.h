@@ -31,9 +31,7 @@ class DeviceSkipping {
   /// `bounds` are the same at every call; null only for a structure that needs none. Adds to the times of `stats`.
   void prepare(const SkipConfig& config, VolumeBounds* bounds, std::span<const ValueRange> ranges, const glm::dvec3& eye, RenderStats& stats);
 
-  /// What the structure makes for each ray.
-  std::optional<RayLists> ray_lists() const { return structure_->ray_lists(); }
-  /// The buffers, by their names in the kernels, but for those of ray_lists.
+  /// The buffers, by their names in the kernels.
   gpu::Resources resources() const;
   /// Sets `blocks`, `bricks` and `structure`.
   void set_parameters(TraceParameters& parameters) const;

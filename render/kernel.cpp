@@ -41,8 +41,6 @@ constexpr Part kParts[] = {
     {"gradient modulation", "MODULATED", "opacity_left", [](const KernelVariant& v) { return shows_volume(v) && v.modulated; }, "--modulate", "no --modulate"},
     {"jitter", "JITTER", "pixel_noise", [](const KernelVariant& v) { return shows_volume(v) && v.jitter; }, "--jitter", "no --jitter"},
     {kSkipPart, "SKIP", "skip_step", skips, "--skip names it", "--skip none: no structure is bound"},
-    {"lists of rays", nullptr, "make_list", [](const KernelVariant& v) { return !v.lists_shader.empty(); }, "--skip segments: each ray's stretches are listed first",
-     "the structure is asked along the ray"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
     {"void cells", "VOIDS", "is_void", [](const KernelVariant& v) { return v.voids && !v.stub; }, "--nan empty, and samples are not finite",
@@ -59,7 +57,6 @@ constexpr Part kParts[] = {
 
 const char* file_of(Pass pass) {
   switch (pass) {
-    case Pass::list: return "list.comp";
     case Pass::enter: return "enter.comp";
     case Pass::trace: return "trace.comp";
     case Pass::seek: return "seek.comp";
@@ -73,20 +70,10 @@ const char* file_of(Pass pass) {
 }  // namespace
 
 std::vector<Pass> passes(const KernelVariant& variant) {
-  std::vector<Pass> all;
-  if (!variant.lists_shader.empty()) all.push_back(Pass::list);
-  all.push_back(Pass::enter);
-  if (variant.stub) {
-    all.push_back(Pass::traverse);
-  } else if (!variant.surfaces) {
-    all.push_back(Pass::volume);
-  } else if (variant.intersect == Intersect::exact && !variant.composite) {
-    all.push_back(Pass::seek);
-    all.push_back(Pass::shade);
-  } else {
-    all.push_back(Pass::trace);
-  }
-  return all;
+  if (variant.stub) return {Pass::enter, Pass::traverse};
+  if (!variant.surfaces) return {Pass::enter, Pass::volume};
+  if (variant.intersect == Intersect::exact && !variant.composite) return {Pass::enter, Pass::seek, Pass::shade};
+  return {Pass::enter, Pass::trace};
 }
 
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
@@ -104,7 +91,6 @@ gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
 gpu::ShaderFiles kernel_files(const KernelVariant& variant) {
   return [variant](std::string_view name) -> std::string_view {
     if (name == "structure.glsl") return shader_file(variant.structure_shader);
-    if (name == "lists.glsl") return shader_file(variant.lists_shader);
     if (name == "spline.glsl") return shader_file(variant.spline_shader);
     if (name == "intersect.glsl")
       return shader_file(variant.intersect == Intersect::exact ? "intersect_exact.glsl" : "intersect_march.glsl");

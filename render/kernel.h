@@ -14,7 +14,6 @@ struct KernelVariant {
   std::string spline_shader = "bcc7.glsl";
   std::string structure = "none";  ///< a name of structure_names()
   std::string structure_shader = "skip_none.glsl";
-  std::string lists_shader;  ///< of RayLists; empty where the structure makes none
   bool cell_test = false;
   Intersect intersect = Intersect::exact;
   Normal normal = Normal::analytic;  ///< samples are central differences with another step: not told apart here
@@ -35,15 +34,15 @@ struct KernelVariant {
   auto operator<=>(const KernelVariant&) const = default;
 };
 
-/// The passes of a picture. A structure may list something of every ray first (list). Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
+/// The passes of a picture. Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
 /// (trace); or, where their first root is all there is to find, by one that finds it (seek) and one that shades it; or
 /// the volume along them is integrated (volume); or they only walk on (traverse).
-enum class Pass { list, enter, trace, seek, shade, volume, traverse };
+enum class Pass { enter, trace, seek, shade, volume, traverse };
 
 /// Those that `variant` has, in order.
 std::vector<Pass> passes(const KernelVariant& variant);
 
-/// What compiling it needs. The includes structure.glsl, lists.glsl, spline.glsl and intersect.glsl are the variant's own.
+/// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
 

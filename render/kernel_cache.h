@@ -15,7 +15,7 @@ struct KernelPass {
   Pass pass;
   gpu::Pipeline pipeline;
 };
-/// Those of a variant, in order.
+/// Those of a variant, in order; the first one enters.
 using Kernels = std::vector<KernelPass>;
 
 class KernelCache {

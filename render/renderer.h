@@ -41,7 +41,6 @@ struct RenderStats {
   double classify_ms = 0;  ///< blocks, and cells where they are tested
   double cluster_ms = 0, build_ms = 0;  ///< of the structure for the isovalues
   std::vector<double> trace_ms;  ///< one entry a frame, timestamp queries where the device has them
-  std::vector<double> list_ms;   ///< the part of each that a structure's lists of rays took; empty where there are none
   std::vector<std::pair<std::string, std::uint64_t>> device_bytes;  ///< by purpose: coefficients, structure, occupancy, frame
   std::uint64_t blocks = 0, active_blocks = 0, active_cells = 0;
   glm::i64vec3 block_extents{0};                  ///< blocks per axis

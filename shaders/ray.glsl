@@ -10,11 +10,7 @@ struct Ray {
   ivec3 far;            // from a cell to its plane on that way, 1 or 0
   real begin, end;      // inside the domain, before the eye nothing
   rvec3 view;           // unit direction in the world
-  int place;            // among the rays of this dispatch
 };
-
-int pixel_number(ivec2 pixel) { return (pixel.y - parameters.picture.z) * parameters.picture.x + pixel.x; }
-
 
 // Keeps an axis the ray hardly moves along off the integer planes: a ray inside a face of the domain or of cells stays on one side.
 void step_off_planes(inout Ray ray, rvec3 centre) {
@@ -29,13 +25,12 @@ void step_off_planes(inout Ray ray, rvec3 centre) {
   ray.d = mix(ray.d, mix(rvec3(-least), rvec3(least), greaterThanEqual(ray.d, rvec3(0.0))), lessThan(abs(ray.d), rvec3(least)));
 }
 
-// The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` and `place` are left to the caller.
+// The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` is left to the caller.
 Ray clipped_ray(rvec3 o, rvec3 d, real t_eye) {
   Ray ray;
   ray.o = o;
   ray.d = d;
   ray.view = rvec3(0.0);
-  ray.place = 0;
 
   rvec3 centre = 0.5 * rvec3(parameters.cells.xyz);
   step_off_planes(ray, centre);
@@ -62,7 +57,6 @@ Ray make_ray(ivec2 pixel) {
   precise rvec3 o = wide(parameters.base_hi.xyz, parameters.base_lo.xyz) +
                     (x * wide(parameters.base_right_hi.xyz, parameters.base_right_lo.xyz) + y * wide(parameters.base_up_hi.xyz, parameters.base_up_lo.xyz));
   Ray ray = clipped_ray(o, d, -wide(parameters.base_hi.w, parameters.base_lo.w) * len);
-  ray.place = pixel_number(pixel);
   ray.view = normalize(wide(parameters.world_forward.xyz, parameters.world_forward_lo.xyz) + x * wide(parameters.world_right.xyz, parameters.world_right_lo.xyz) +
                        y * wide(parameters.world_up.xyz, parameters.world_up_lo.xyz));
   return ray;

@@ -21,7 +21,6 @@ std::vector<KernelVariant> all_variants() {
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
       v.structure = structure->name();
       v.structure_shader = structure->shader();
-      if (const auto lists = structure->ray_lists()) v.lists_shader = lists->shader;
       v.cell_test = bits & 1;
       v.intersect = bits & 2 ? Intersect::march : Intersect::exact;
       v.normal = bits & 4 ? Normal::central : Normal::analytic;
@@ -49,7 +48,6 @@ std::vector<KernelVariant> volume_variants() {
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
       v.structure = structure->name();
       v.structure_shader = structure->shader();
-      if (const auto lists = structure->ray_lists()) v.lists_shader = lists->shader;
       v.volume = true;
       v.pre_integrated = bits & 1;
       v.adaptive = bits & 2;
@@ -83,7 +81,6 @@ std::vector<KernelVariant> void_variants() {
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
       v.structure = structure->name();
       v.structure_shader = structure->shader();
-      if (const auto lists = structure->ray_lists()) v.lists_shader = lists->shader;
       v.voids = true;
       v.cell_test = bits & 1;
       v.intersect = bits & 2 ? Intersect::march : Intersect::exact;
@@ -184,7 +181,6 @@ std::set<std::string> buffers_of(const KernelVariant& v) {
   structure->build(classify(blocks, cells, ranges_of(isovalues)), Thresholds(cells, ranges_of(isovalues)));
   std::set<std::string> names;
   for (const StructureBuffer& buffer : structure->buffers()) names.insert(buffer.name);
-  if (const auto lists = structure->ray_lists()) names.insert({lists->written, lists->read});
   return names;
 }
 

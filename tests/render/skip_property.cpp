@@ -1,6 +1,5 @@
 #include "tests/render/skip_property.h"
 
-#include <algorithm>
 #include <map>
 
 #include "render/trace_frame.h"
@@ -21,9 +20,6 @@ constexpr const char* kKernel = R"(#version 460
 #include "spline.glsl"
 #include "isosurfaces.glsl"
 #include "walk.glsl"
-#ifdef LISTS
-#include "lists.glsl"
-#endif
 layout(local_size_x = 64) in;
 layout(std430, binding = 20) buffer Tally { uint seen[]; };  // rays, stretches, points, violations of a lane
 layout(push_constant) uniform Push { vec4 eye; uint seed; };  // lattice coordinates; .w: whether all rays come from it
@@ -41,11 +37,6 @@ vec3 uniform_direction() {
   return normalize(p);
 }
 
-Ray placed(Ray ray) {
-  ray.place = int(gl_GlobalInvocationID.x);
-  return ray;
-}
-
 // Through a point of the domain; one ray in four along an axis or a diagonal, one in four through a lattice point or along a plane.
 Ray random_ray() {
   vec3 size = vec3(parameters.cells.xyz);
@@ -59,9 +50,9 @@ Ray random_ray() {
   through -= 0.5 * size;
   if (eye.w > 0.0) {
     vec3 from = eye.xyz - 0.5 * size;
-    return placed(clipped_ray(from, normalize(through - from + vec3(1e-6, 2e-6, 3e-6)), 0.0));
+    return clipped_ray(from, normalize(through - from + vec3(1e-6, 2e-6, 3e-6)), 0.0);
   }
-  return placed(clipped_ray(through, d, -back));
+  return clipped_ray(through, d, -back);
 }
 
 bool above(Ray ray, float t) { return spline_value_at(ray.o + clamp(t, ray.begin, ray.end) * ray.d, ray.centre, scaled_isovalue(0)) >= 0.0; }
@@ -72,10 +63,6 @@ void main() {
   uniform01();
   Ray ray = random_ray();
   bool alive = ray.begin < ray.end;
-#ifdef LISTS
-  make_list(ray, alive);
-  seen[3u * lane] = 0u;
-#else
   uint stretches = 0u, violations = 0u;
   Walk walk = begin_walk(ray, ray.begin, ray.begin);
   bool seeking = alive;
@@ -104,7 +91,6 @@ void main() {
   seen[3u * lane] += alive ? 1u : 0u;
   seen[3u * lane + 1u] += stretches;
   seen[3u * lane + 2u] += violations;
-#endif
 })";
 
 struct Push {
@@ -130,26 +116,23 @@ CellBounds shrunken(CellBounds cells, double part) {
   return cells;
 }
 
-/// The kernel that looks, or the one that makes the structure's lists for the same rays.
-const gpu::Pipeline& property_pipeline(const SkipConfig& config, bool lists) {
-  static std::map<std::pair<KernelVariant, bool>, gpu::Pipeline> made;
+const gpu::Pipeline& property_pipeline(const SkipConfig& config) {
+  static std::map<KernelVariant, gpu::Pipeline> made;
   KernelVariant variant;
   const auto structure = make_structure(config);
   variant.structure = structure->name();
   variant.structure_shader = structure->shader();
   variant.cell_test = config.cell_test;
   variant.intersect = Intersect::march;  // evaluates points
-  if (const auto listed = structure->ray_lists()) variant.lists_shader = listed->shader;
-  const auto found = made.find({variant, lists});
+  const auto found = made.find(variant);
   if (found != made.end()) return found->second;
   gpu::KernelSource source = kernel_source(variant, Pass::trace);
   source.file = "property.comp";
-  if (lists) source.defines.emplace_back("LISTS", "1");
   const auto files = [rest = kernel_files(variant)](std::string_view name) {
     return name == "property.comp" ? std::string_view(kKernel) : rest(name);
   };
   gpu::Device& device = test_kernels()->device();
-  return made[{variant, lists}] = gpu::create_pipeline(device, gpu::compile(device, files, source));
+  return made[variant] = gpu::create_pipeline(device, gpu::compile(device, files, source));
 }
 
 }  // namespace
@@ -170,6 +153,7 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   TraceParameters parameters = trace_parameters(request.scene, coefficients);
   skipping.set_parameters(parameters);
 
+  const gpu::Pipeline& pipeline = property_pipeline(config);
   const auto filled = [&](std::span<const std::byte> bytes, gpu::BufferUse use, const char* name, VkFormat format = VK_FORMAT_UNDEFINED) {
     return gpu::create_filled(device, bytes, use, name, format);
   };
@@ -183,19 +167,7 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   resources.emplace_back("Tally", tallies);
   const bool from_eye = config.structure == "hybrid" || (config.structure == "kdtree" && config.kd == KdDepth::shallow);  // sorted for one eye
   const Push push{glm::vec4(glm::vec3(eye), from_eye ? 1.0f : 0.0f), seed};
-  const auto run = [&](bool lists) {
-    const gpu::Pipeline& pipeline = property_pipeline(config, lists);
-    gpu::Resources bound;
-    for (const auto& resource : resources)
-      if (std::ranges::any_of(pipeline.reflection.bindings, [&](const gpu::Binding& b) { return b.name == resource.first; })) bound.push_back(resource);
-    gpu::dispatch(device, pipeline, bound, std::as_bytes(std::span(&push, 1)).first(pipeline.reflection.push_constant_bytes), rays / 64);
-  };
-  if (const auto lists = skipping.ray_lists()) {
-    const gpu::Buffer buffer = gpu::create_buffer(device, std::uint64_t(rays) * std::uint64_t(lists->pairs) * 8, gpu::BufferUse::texel, "lists", VK_FORMAT_R32G32_UINT);
-    resources.insert(resources.end(), {{lists->written, buffer}, {lists->read, buffer}});
-    run(true);
-  }
-  run(false);
+  gpu::dispatch(device, pipeline, resources, std::as_bytes(std::span(&push, 1)).first(pipeline.reflection.push_constant_bytes), rays / 64);
   gpu::download(device, tallies, std::as_writable_bytes(std::span(tally)));
 
   SkippedSpace seen;
