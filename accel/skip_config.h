@@ -22,6 +22,7 @@ struct SkipConfig {
   Clustering clustering = Clustering::none;  ///< of bvh
   int max_cluster = 16;                      ///< of Clustering::cubes: the largest edge in blocks, 1..256
   KdDepth kd = KdDepth::deep;                ///< of kdtree
+  int max_segments = 16;                     ///< of segments: the most that a ray's list holds, 1..64
   RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of octree, which compares inside the kernel
 
   bool operator==(const SkipConfig&) const = default;

@@ -9,6 +9,7 @@
 #include "accel/kdtree.h"
 #include "accel/none.h"
 #include "accel/octree.h"
+#include "accel/segments.h"
 #include "lattice/error.h"
 
 namespace quincunx {
@@ -28,6 +29,7 @@ constexpr Row kStructures[] = {
     {"distance", [](const SkipConfig&) -> Made { return std::make_unique<Distance>(); }},
     {"bvh", [](const SkipConfig& c) -> Made { return std::make_unique<Bvh>(Bvh::Config{c.clustering, c.max_cluster}); }},
     {"kdtree", [](const SkipConfig& c) -> Made { return std::make_unique<KdTree>(KdTree::Config{.depth = c.kd}); }},
+    {"segments", [](const SkipConfig& c) -> Made { return std::make_unique<Segments>(Segments::Config{.capacity = c.max_segments}); }},
 };
 
 /// A choice that some structures have, as it stands behind their name in a label.
@@ -46,6 +48,7 @@ constexpr Choice kLabels[] = {
     {"bvh:boxes", "bvh", Clustering::boxes, KdDepth::deep},
     {"kdtree:shallow", "kdtree", Clustering::none, KdDepth::shallow},
     {"kdtree:deep", "kdtree", Clustering::none, KdDepth::deep},
+    {"segments", "segments", Clustering::none, KdDepth::deep},
 };
 
 }  // namespace

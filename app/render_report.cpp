@@ -77,6 +77,10 @@ Json volume_json(const DirectVolume& volume) {
   return json;
 }
 
+Json segments_json(const SegmentStats& segments) {
+  return {{"capacity", segments.capacity}, {"ms", percentile(segments.ms, 0.5)}, {"steps", segments.steps}, {"listed", segments.listed}, {"full", segments.full}};
+}
+
 Json bricks_json(const BrickStats& bricks) {
   return {{"edge", bricks.edge}, {"count", bricks.count}, {"slots", bricks.slots}, {"resident", bricks.resident}, {"loads", bricks.loads},
           {"evictions", bricks.evictions}, {"loaded_bytes", bricks.loaded_bytes}, {"rounds", bricks.rounds}, {"load_ms", bricks.load_ms}};
@@ -123,6 +127,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["leaves"] = stats.leaves;
   json["nodes"] = stats.nodes;
   json["depth"] = stats.depth;
+  if (stats.segments.capacity > 0) json["segments"] = segments_json(stats.segments);
   if (stats.bricks.edge > 0) json["bricks"] = bricks_json(stats.bricks);
   json["device_bytes"] = Json::object();
   for (const auto& [purpose, bytes] : stats.device_bytes) json["device_bytes"][purpose] = bytes;

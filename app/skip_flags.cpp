@@ -74,6 +74,12 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   add_parsed(app, "--kd", kd, "{shallow,deep}", std::string(kd_name(flags.config.kd)),
              "Of kdtree: a few large leaves, sorted for each picture, or small ones that each ray looks for")
       ->group(group);
+  const auto segments = [&flags](const std::string& text) {
+    flags.config.max_segments = int(parse_integer(text, "--max-segments", 1, 64));
+    flags.max_segments_given = true;
+  };
+  add_parsed(app, "--max-segments", segments, "N", fmt::format("{}", flags.config.max_segments), "Of segments: the most that a ray's list holds")
+      ->group(group);
   add_choice(app, "--range-query", flags.config.range_query,
              {{"intervals", RangeQueryKind::intervals}, {"table", RangeQueryKind::table}, {"irt", RangeQueryKind::irt}},
              "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of octree's blocks")
@@ -83,6 +89,7 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
 void check_skip_flags(const SkipFlags& flags) {
   check_given(flags.clustering_given, "--cluster", "bvh", flags.config);
   check_given(flags.kd_given, "--kd", "kdtree", flags.config);
+  check_given(flags.max_segments_given, "--max-segments", "segments", flags.config);
   if (flags.max_cluster_given && flags.config.clustering != Clustering::cubes)
     throw InputError(fmt::format("--max-cluster: found with --cluster {}, expected --cluster cubes",
                                  clustering_name(flags.config.clustering)));

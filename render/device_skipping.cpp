@@ -30,6 +30,8 @@ bool same_blocks(const std::optional<Classification>& a, const Classification& b
 void check_config(const SkipConfig& config) {
   if (config.max_cluster < 1 || config.max_cluster > 256)
     throw InputError(fmt::format("--max-cluster: found {}, expected 1 to 256", config.max_cluster));
+  if (config.max_segments < 1 || config.max_segments > 64)
+    throw InputError(fmt::format("--max-segments: found {}, expected 1 to 64", config.max_segments));
 }
 
 }  // namespace

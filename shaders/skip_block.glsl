@@ -4,4 +4,4 @@ struct SkipState {
 };
 SkipState begin_skip() { return SkipState(0); }
 
-int block_number(ivec3 block) { return (block.z * parameters.blocks.y + block.y) * parameters.blocks.x + block.x; }
+#include "block_number.glsl"
