@@ -27,6 +27,7 @@ struct SkipConfig {
   KdDepth kd = KdDepth::deep;                ///< of kdtree
   double least_leaf = 0.1;                   ///< of KdDepth::shallow and hybrid: no leaf is smaller than this part of the root's volume, above 0, at most 1
   HybridGrid hybrid = HybridGrid::pc;        ///< of hybrid
+  int max_segments = 16;                     ///< of segments: the most that a ray's list holds, 1..64
   RangeQueryKind range_query = RangeQueryKind::intervals;  ///< not of the blocks of octree and HybridGrid::mm, which kernels compare themselves
 
   bool operator==(const SkipConfig&) const = default;

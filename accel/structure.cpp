@@ -11,6 +11,7 @@
 #include "accel/kdtree.h"
 #include "accel/none.h"
 #include "accel/octree.h"
+#include "accel/segments.h"
 #include "lattice/error.h"
 
 namespace quincunx {
@@ -32,6 +33,7 @@ constexpr Row kStructures[] = {
     {"bih", [](const SkipConfig&) -> Made { return std::make_unique<BihSkipping>(); }},
     {"kdtree", [](const SkipConfig& c) -> Made { return std::make_unique<KdTree>(KdTree::Config{.depth = c.kd, .least_share = c.least_leaf}); }},
     {"hybrid", [](const SkipConfig& c) -> Made { return std::make_unique<Hybrid>(Hybrid::Config{c.hybrid, c.least_leaf}); }},
+    {"segments", [](const SkipConfig& c) -> Made { return std::make_unique<Segments>(Segments::Config{.capacity = c.max_segments}); }},
 };
 
 /// A choice that some structures have, as it stands behind their name in a label.
@@ -54,6 +56,7 @@ constexpr Choice kLabels[] = {
     {"kdtree:deep", "kdtree", Clustering::none, KdDepth::deep},
     {"hybrid:mm", "hybrid", Clustering::none, KdDepth::deep, HybridGrid::mm},
     {"hybrid:pc", "hybrid", Clustering::none, KdDepth::deep, HybridGrid::pc},
+    {"segments", "segments", Clustering::none, KdDepth::deep},
 };
 
 }  // namespace

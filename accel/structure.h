@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,13 @@ struct StructureReport {
   double build_ms = 0.0;        ///< all else
 };
 
+/// How a structure lists, before the rays of a picture enter, the segments of each that may matter: a pass of its own (shaders/segments.comp), from
+/// what its buffers hold. Its twin reads the lists; parameters().x is their capacity.
+struct SegmentPass {
+  std::string_view shader;  ///< a file of shaders/ that defines list_segments
+  int capacity = 1;         ///< segments of a ray, 1 or more
+};
+
 /// A skipping structure. On the device it answers one question: the next interval of the ray that may hold a
 /// surface (the contract of its GLSL twin is in shaders/skip.glsl).
 class SkippingStructure {
@@ -66,6 +74,8 @@ class SkippingStructure {
   /// parameters.structure of the GLSL twin; what it means is written there.
   virtual glm::ivec4 parameters() const { return glm::ivec4(0); }
   virtual StructureReport report() const = 0;
+  /// Of a structure that has one.
+  virtual std::optional<SegmentPass> segment_pass() const { return std::nullopt; }
 };
 
 /// The names make_structure knows, for SkipConfig::structure.

@@ -104,6 +104,10 @@ Json volume_json(const DirectVolume& volume) {
   return json;
 }
 
+Json segments_json(const SegmentStats& segments) {
+  return {{"capacity", segments.capacity}, {"ms", percentile(segments.ms, 0.5)}, {"steps", segments.steps}, {"listed", segments.listed}, {"full", segments.full}};
+}
+
 Json bricks_json(const BrickStats& bricks) {
   return {{"edge", bricks.edge}, {"count", bricks.count}, {"slots", bricks.slots}, {"resident", bricks.resident}, {"loads", bricks.loads},
           {"evictions", bricks.evictions}, {"loaded_bytes", bricks.loaded_bytes}, {"rounds", bricks.rounds}, {"load_ms", bricks.load_ms}};
@@ -142,6 +146,7 @@ Json stats_json(const std::string& volume, const Renderer::Request& request, con
   json["nodes"] = stats.nodes;
   json["one_child"] = stats.one_child;
   json["depth"] = stats.depth;
+  if (stats.segments.capacity > 0) json["segments"] = segments_json(stats.segments);
   if (stats.bricks.edge > 0) json["bricks"] = bricks_json(stats.bricks);
   add_device_bytes(stats, json);
   return json;

@@ -97,6 +97,12 @@ void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group) {
   add_parsed(app, "--least-leaf", leaf, "X", fmt::format("{}", flags.config.least_leaf),
              "Of hybrid and shallow k-d trees: no leaf is smaller than this part of the box around all that is active")
       ->group(group);
+  const auto segments = [&flags](const std::string& text) {
+    flags.config.max_segments = int(parse_integer(text, "--max-segments", 1, 64));
+    flags.max_segments_given = true;
+  };
+  add_parsed(app, "--max-segments", segments, "N", fmt::format("{}", flags.config.max_segments), "Of segments: the most that a ray's list holds")
+      ->group(group);
   add_choice(app, "--range-query", flags.config.range_query,
              {{"intervals", RangeQueryKind::intervals}, {"table", RangeQueryKind::table}, {"irt", RangeQueryKind::irt}},
              "How blocks and cells are compared with what can be seen: exactly, or by a table or tree over 4096 entries. Not of the blocks of octree and hybrid mm")
@@ -109,6 +115,7 @@ void check_skip_flags(const SkipFlags& flags) {
   check_given(flags.hybrid_given, "--hybrid", "hybrid", flags.config);
   if (flags.least_leaf_given && !has_large_leaves(flags.config))
     throw InputError(fmt::format("--least-leaf: found with --skip {}, expected --skip hybrid or --skip kdtree --kd shallow", flags.config.structure));
+  check_given(flags.max_segments_given, "--max-segments", "segments", flags.config);
   if (flags.max_cluster_given && flags.config.clustering != Clustering::cubes)
     throw InputError(fmt::format("--max-cluster: found with --cluster {}, expected --cluster cubes",
                                  clustering_name(flags.config.clustering)));

@@ -11,10 +11,11 @@ namespace quincunx {
 
 struct SkipFlags {
   SkipConfig config;
-  bool clustering_given = false, max_cluster_given = false, kd_given = false, hybrid_given = false, least_leaf_given = false;
+  bool clustering_given = false, max_cluster_given = false, kd_given = false, hybrid_given = false, least_leaf_given = false,
+       max_segments_given = false;
 };
 
-/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd, --hybrid, --least-leaf, --range-query.
+/// --skip, --block, --cell-test, --cluster, --max-cluster, --kd, --hybrid, --least-leaf, --max-segments, --range-query.
 void add_skip_flags(CLI::App& app, SkipFlags& flags, const std::string& group);
 
 /// Throws InputError naming the flag where one was given that the structure of --skip does not have.

@@ -80,12 +80,13 @@ void walk(Frames& frames, std::size_t setting, std::size_t views, SweepMeasureme
   }
 }
 
-/// One timed frame of each view.
-std::vector<double> time_views(Frames& frames, std::size_t setting, std::size_t views) {
-  std::vector<double> ms;
-  for (std::size_t view = 0; view < views; ++view)
-    ms.push_back(frames.render(frames.request(setting, view)).stats.trace_ms.front());
-  return ms;
+/// Adds one timed frame of each view.
+void time_views(Frames& frames, std::size_t setting, std::size_t views, SweepMeasurement& m) {
+  for (std::size_t view = 0; view < views; ++view) {
+    const RenderStats stats = frames.render(frames.request(setting, view)).stats;
+    m.cost.frame_ms.push_back(stats.trace_ms.front());
+    if (!stats.segments.ms.empty()) m.segments_ms.push_back(stats.segments.ms.front());
+  }
 }
 
 /// `truth`: the first setting's frames, by view, which that setting's own round leaves there.
@@ -103,7 +104,7 @@ SweepMeasurement first_round(Frames& frames, const SweepPlan& plan, std::size_t 
     }
     walk(frames, setting, plan.views.size(), m);
   }
-  m.cost.frame_ms = time_views(frames, setting, plan.views.size());
+  time_views(frames, setting, plan.views.size(), m);
   return m;
 }
 
@@ -142,9 +143,7 @@ void measure_sweep(Renderer& renderer, const SweepPlan& plan, std::vector<SweepM
   for (int round = 1; round < plan.rounds; ++round) {
     for (std::size_t s = 0; s < plan.settings.size(); ++s) {
       frames.render(frames.request(s, 0));
-      const std::vector<double> ms = time_views(frames, s, plan.views.size());
-      std::vector<double>& all = measured[s].cost.frame_ms;
-      all.insert(all.end(), ms.begin(), ms.end());
+      time_views(frames, s, plan.views.size(), measured[s]);
     }
   }
 }

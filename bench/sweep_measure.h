@@ -27,6 +27,7 @@ struct SweepMeasurement {
   std::vector<double> traversal_ms;           ///< of each view: the structure walked to the end of all rays, nothing evaluated
   std::uint64_t traversal_intervals = 0;      ///< of those walks together
   RenderStats stages;                         ///< times of all that had to be made for the setting; moved values
+  std::vector<double> segments_ms;            ///< as cost.frame_ms, of which they are parts: lists of segments; empty where there are none
   RenderStats scene;                          ///< bytes and counts; times of what other values made necessary
   double change_ms() const;                   ///< these together: classify, cluster, build, table and upload
   std::uint64_t differing_pixels = 0;         ///< of the frames of all views, against those of the first setting, bit for bit

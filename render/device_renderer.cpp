@@ -36,6 +36,14 @@ std::span<const std::byte> bytes_of(const std::vector<T>& v) {
 
 std::string pieces_of(const Spline& spline) { return fmt::format("pieces of {}", spline.name()); }
 
+/// A picture's edge in whole tiles.
+std::int64_t round_up(std::int64_t pixels) { return (pixels + kTile - 1) / kTile * kTile; }
+
+/// What the pass of segments counts (shaders/segments_octree.glsl).
+struct SegmentCounts {
+  std::uint32_t steps = 0, listed = 0, full = 0;
+};
+
 /// Whether both are looked up in the same table.
 bool same_table(const DirectVolume& a, const DirectVolume& b) {
   return a.function == b.function && a.classify == b.classify && a.table_entries() == b.table_entries() && a.step == b.step;
@@ -110,8 +118,7 @@ KernelVariant DeviceRenderer::variant(const Request& request) const {
   const TexelLayout layout = coefficient_layout();
   KernelVariant v;
   v.spline_shader = spline_->shader();
-  v.structure = structure->name();
-  v.structure_shader = structure->shader();
+  set_structure(v, *structure);
   v.cell_test = request.skip.cell_test && request.skip.structure != "none";
   v.intersect = request.scene.intersect;
   v.normal = request.scene.normal == Normal::analytic ? Normal::analytic : Normal::central;
@@ -282,10 +289,18 @@ void DeviceRenderer::upload_transfer_table(const Scene& scene, RenderStats& stat
 
 // ---- pictures ----
 
+std::uint64_t DeviceRenderer::segment_bytes() const {
+  const std::optional<SegmentPass> pass = skipping_->segment_pass();
+  return pass ? std::uint64_t(pass->capacity) * (config_.precision == Precision::float64 ? 16 : 8) : 0;
+}
+
 DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
-  const std::uint64_t ray_bytes = kRayBytes * (config_.precision == Precision::float64 ? 2 : 1);
-  const std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / (bricks_ ? kParkedBytes : std::max(kPixelBytes, ray_bytes))));
-  const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / scene.width / kTile * kTile);
+  const std::uint64_t ray_bytes = kRayBytes * (config_.precision == Precision::float64 ? 2 : 1), list_bytes = segment_bytes();
+  const std::uint64_t most_bytes = std::max({kPixelBytes, ray_bytes, list_bytes, bricks_ ? kParkedBytes : 0});
+  std::int64_t pixels = std::min<std::int64_t>(kBandPixels, std::int64_t(limits_.frame_bytes / most_bytes));
+  if (list_bytes > 0) pixels = std::min(pixels, std::int64_t(gpu::info(device_).max_texel_buffer_elements / std::uint64_t(skipping_->segment_pass()->capacity)));
+  const std::int64_t width = list_bytes > 0 ? round_up(scene.width) : scene.width;
+  const std::int64_t rows = std::max<std::int64_t>(kTile, pixels / width / kTile * kTile);
   Band band;
   band.rows = int(std::min<std::int64_t>(rows, scene.height));
   const std::uint64_t bytes = std::uint64_t(band.rows) * scene.width * kPixelBytes;
@@ -294,13 +309,19 @@ DeviceRenderer::Band DeviceRenderer::make_band(const Scene& scene, bool cost) {
   if (cost) band.cost = gpu::create_buffer(device_, bytes, gpu::BufferUse::storage, "cost");
   if (bricks_) band.parked = gpu::create_buffer(device_, bytes / kPixelBytes * kParkedBytes, gpu::BufferUse::storage, "parked");
   band.rays = gpu::create_buffer(device_, bytes / kPixelBytes * ray_bytes + kRayCountBytes, gpu::BufferUse::storage, "rays");
+  if (list_bytes > 0) {
+    const VkFormat format = config_.precision == Precision::float64 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT;
+    band.segments = gpu::create_buffer(device_, std::uint64_t(width * round_up(band.rows)) * list_bytes, gpu::BufferUse::texel, "ray segments", format);
+    band.segment_counts = gpu::create_buffer(device_, sizeof(SegmentCounts), gpu::BufferUse::storage, "segment counts");
+  }
   return band;
 }
 
 gpu::Resources DeviceRenderer::resources(const gpu::Pipeline& pipeline, const Band& band) const {
   gpu::Resources all = skipping_->resources();
   all.insert(all.end(), {{"uniforms", parameters_}, {"Isosurfaces", isosurfaces_}, {"transferTable", transfer_table_},
-                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}, {"voids", void_buffer_}});
+                         {"Color", band.color}, {"Hit", band.hit}, {"Cost", band.cost}, {"Rays", band.rays}, {"voids", void_buffer_},
+                         {"RaySegments", band.segments}, {"raySegments", band.segments}, {"SegmentCounts", band.segment_counts}});
   if (bricks_) all.emplace_back("Parked", band.parked);
   const gpu::Resources coefficients = bricks_ ? bricks_->resources() : texels_.resources();
   all.insert(all.end(), coefficients.begin(), coefficients.end());
@@ -334,36 +355,52 @@ std::uint32_t DeviceRenderer::rays_per_lane() const {
   return gpu::info(device_).type == "CPU" ? kRaysPerLane : 1;
 }
 
-double DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress) {
+DeviceRenderer::Traced DeviceRenderer::list_segments(const KernelPass& pass, const Band& band, std::uint32_t groups_x, std::uint32_t groups_y) {
+  SegmentCounts counts;
+  gpu::upload(device_, band.segment_counts, std::as_bytes(std::span(&counts, 1)));
+  const double ms = gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, groups_x, groups_y);
+  gpu::download(device_, band.segment_counts, std::as_writable_bytes(std::span(&counts, 1)));
+  return {.ms = ms, .segments_ms = ms, .steps = counts.steps, .listed = counts.listed, .full = counts.full};
+}
+
+DeviceRenderer::Traced DeviceRenderer::trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress) {
   std::uint32_t rays = 0;
   gpu::upload(device_, band.rays, std::as_bytes(std::span(&rays, 1)));
-  const gpu::Pipeline& enter = kernels.front().pipeline;
-  double ms = gpu::dispatch(device_, enter, resources(enter, band), {}, (scene.width + kTile - 1) / kTile, (rows + kTile - 1) / kTile);
-  gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
-  for (const KernelPass& pass : std::span(kernels).subspan(1)) {
+  const std::uint32_t groups_x = std::uint32_t(round_up(scene.width) / kTile), groups_y = std::uint32_t(round_up(rows) / kTile);
+  Traced traced;
+  for (const KernelPass& pass : kernels) {
+    if (pass.pass == Pass::segments) {
+      traced += list_segments(pass, band, groups_x, groups_y);
+      continue;
+    }
+    if (pass.pass == Pass::enter) {
+      traced.ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, groups_x, groups_y);
+      gpu::download(device_, band.rays, std::as_writable_bytes(std::span(&rays, 1)));
+      continue;
+    }
     const std::uint32_t group = kTraceGroup * (pass.pass == Pass::seek ? rays_per_lane() : 1);
     // Until no ray waits for a brick.
     const bool waits = bricks_ && pass.pass != Pass::traverse;
     do {
       if (waits) bricks_->clear_requests();
-      ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
+      traced.ms += gpu::dispatch(device_, pass.pipeline, resources(pass.pipeline, band), {}, (rays + group - 1) / group);
     } while (waits && bricks_->serve(lattice_eye(scene), progress));
   }
-  return ms;
+  return traced;
 }
 
-double DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
+DeviceRenderer::Traced DeviceRenderer::trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress) {
   TraceParameters p = make_parameters(scene);
-  double ms = 0.0;
+  Traced traced;
   for (int row = 0; row < scene.height; row += band.rows) {
     const int rows = std::min(band.rows, scene.height - row);
     p.picture = ivec4(scene.width, scene.height, row, rows);
     gpu::upload(device_, parameters_, std::as_bytes(std::span(&p, 1)));
-    ms += trace_band(kernels, band, scene, rows, [&](double) { report(progress, double(row) / scene.height); });
+    traced += trace_band(kernels, band, scene, rows, [&](double) { report(progress, double(row) / scene.height); });
     if (frame) read_band(band, row, rows, *frame);
     report(progress, double(row + rows) / scene.height);
   }
-  return ms;
+  return traced;
 }
 
 void DeviceRenderer::read_band(const Band& band, int row, int rows, Frame& frame) {
@@ -404,6 +441,17 @@ Frame DeviceRenderer::empty_frame(const Scene& scene) {
   return frame;
 }
 
+void DeviceRenderer::add_frame(const Traced& traced, RenderStats& stats) const {
+  stats.trace_ms.push_back(traced.ms);
+  const std::optional<SegmentPass> pass = skipping_->segment_pass();
+  if (!pass) return;
+  stats.segments.capacity = pass->capacity;
+  stats.segments.ms.push_back(traced.segments_ms);
+  stats.segments.steps = traced.steps;
+  stats.segments.listed = traced.listed;
+  stats.segments.full = traced.full;
+}
+
 void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   stats.device = gpu::info(device_).name;
   stats.precision = config_.precision;
@@ -416,6 +464,7 @@ void DeviceRenderer::describe(const Band& band, RenderStats& stats) const {
   }
   skipping_->describe(stats);
   stats.device_bytes.emplace_back("frame", band.color.bytes + band.hit.bytes + band.cost.bytes + band.rays.bytes + band.parked.bytes);
+  if (band.segments.bytes > 0) stats.device_bytes.emplace_back("segments", band.segments.bytes + band.segment_counts.bytes);
   stats.void_cells = voids_ ? voids_->count : 0;
   if (void_buffer_.bytes > 0) stats.device_bytes.emplace_back("void cells", void_buffer_.bytes);
   if (transfer_table_.bytes > 0) stats.device_bytes.emplace_back("transfer table", transfer_table_.bytes);
@@ -458,7 +507,7 @@ Frame DeviceRenderer::render(const Request& request, RenderStats& stats, const P
   }
   if (request.repeat > 1) trace(made, visible.scene, band, nullptr, {});  // warm-up
   for (int i = 0; i < request.repeat; ++i)
-    stats.trace_ms.push_back(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}));
+    add_frame(trace(made, visible.scene, band, i == 0 ? &frame : nullptr, i == 0 ? progress : Progress{}), stats);
   describe(band, stats);
   if (request.count_costs) count_costs(visible, stats, progress);
   stats.rays = std::uint64_t(frame.width) * frame.height;

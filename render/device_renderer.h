@@ -42,6 +42,14 @@ class DeviceRenderer final : public Renderer {
   struct Band {
     int rows = 0;
     gpu::Buffer color, hit, cost, rays, parked;
+    gpu::Buffer segments, segment_counts;  ///< of a structure's SegmentPass
+  };
+  /// What tracing a picture or band took, and making the lists of segments of it.
+  struct Traced {
+    double ms = 0.0, segments_ms = 0.0;
+    std::uint64_t steps = 0, listed = 0, full = 0;
+
+    void operator+=(const Traced& t) { ms += t.ms, segments_ms += t.segments_ms, steps += t.steps, listed += t.listed, full += t.full; }
   };
 
   /// What coefficients are on the device.
@@ -67,17 +75,21 @@ class DeviceRenderer final : public Renderer {
   void upload_isosurfaces(const std::vector<Isosurface>& isosurfaces);
   /// Makes the table anew where anything that it depends on has changed.
   void upload_transfer_table(const Scene& scene, RenderStats& stats);
+  /// Bytes of a ray's list of segments; 0 where there are none.
+  std::uint64_t segment_bytes() const;
   Band make_band(const Scene& scene, bool cost);
   gpu::Resources resources(const gpu::Pipeline& pipeline, const Band& band) const;
-  double trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
+  Traced trace(const Kernels& kernels, const Scene& scene, Band& band, Frame* frame, const Progress& progress);
   TraceParameters make_parameters(const Scene& scene);
   /// Runs the kernels on no pixel: drivers compile at the first use, which no frame's time shall hold.
   void finish_compiling(const Kernels& kernels, const Scene& scene, const Band& band);
   std::uint32_t rays_per_lane() const;
-  double trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress);
+  Traced list_segments(const KernelPass& pass, const Band& band, std::uint32_t groups_x, std::uint32_t groups_y);
+  Traced trace_band(const Kernels& kernels, const Band& band, const Scene& scene, int rows, const Progress& progress);
   void read_band(const Band& band, int row, int rows, Frame& frame);
   void count_costs(Request request, RenderStats& stats, const Progress& progress);
   static Frame empty_frame(const Scene& scene);
+  void add_frame(const Traced& traced, RenderStats& stats) const;
   void describe(const Band& band, RenderStats& stats) const;
   /// Throws InputError for more cells than kernels can number.
   void check_cells() const;

@@ -32,6 +32,8 @@ void check_config(const SkipConfig& config) {
     throw InputError(fmt::format("--max-cluster: found {}, expected 1 to 256", config.max_cluster));
   if (!(config.least_leaf > 0.0 && config.least_leaf <= 1.0))
     throw InputError(fmt::format("--least-leaf: found {}, expected a number above 0, at most 1", config.least_leaf));
+  if (config.max_segments < 1 || config.max_segments > 64)
+    throw InputError(fmt::format("--max-segments: found {}, expected 1 to 64", config.max_segments));
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ class DeviceSkipping {
   gpu::Resources resources() const;
   /// Sets `blocks`, `bricks` and `structure`.
   void set_parameters(TraceParameters& parameters) const;
+  /// Of the structure that was prepared last, if it has one.
+  std::optional<SegmentPass> segment_pass() const { return structure_->segment_pass(); }
   /// Tells what the last prepare made: counts and bytes.
   void describe(RenderStats& stats) const;
 

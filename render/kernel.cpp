@@ -41,6 +41,8 @@ constexpr Part kParts[] = {
     {"gradient modulation", "MODULATED", "opacity_left", [](const KernelVariant& v) { return shows_volume(v) && v.modulated; }, "--modulate", "no --modulate"},
     {"jitter", "JITTER", "pixel_noise", [](const KernelVariant& v) { return shows_volume(v) && v.jitter; }, "--jitter", "no --jitter"},
     {kSkipPart, "SKIP", "skip_step", skips, "--skip names it", "--skip none: no structure is bound"},
+    {"segments of rays", "RAY_SEGMENTS", "ray_number", [](const KernelVariant& v) { return !v.segments_shader.empty(); },
+     "the structure lists them for each ray", "the structure lists nothing for each ray"},
     {"cell test", "CELL_TEST", "occupied", [](const KernelVariant& v) { return v.cell_test; }, "--cell-test on",
      "--cell-test off, or nothing is skipped"},
     {"void cells", "VOIDS", "is_void", [](const KernelVariant& v) { return v.voids && !v.stub; }, "--nan empty, and samples are not finite",
@@ -57,6 +59,7 @@ constexpr Part kParts[] = {
 
 const char* file_of(Pass pass) {
   switch (pass) {
+    case Pass::segments: return "segments.comp";
     case Pass::enter: return "enter.comp";
     case Pass::trace: return "trace.comp";
     case Pass::seek: return "seek.comp";
@@ -67,13 +70,27 @@ const char* file_of(Pass pass) {
   return "";
 }
 
-}  // namespace
-
-std::vector<Pass> passes(const KernelVariant& variant) {
+/// What comes once rays have their segments, where the structure lists any.
+std::vector<Pass> ray_passes(const KernelVariant& variant) {
   if (variant.stub) return {Pass::enter, Pass::traverse};
   if (!variant.surfaces) return {Pass::enter, Pass::volume};
   if (variant.intersect == Intersect::exact && !variant.composite) return {Pass::enter, Pass::seek, Pass::shade};
   return {Pass::enter, Pass::trace};
+}
+
+}  // namespace
+
+void set_structure(KernelVariant& variant, const SkippingStructure& structure) {
+  const std::optional<SegmentPass> segments = structure.segment_pass();
+  variant.structure = structure.name();
+  variant.structure_shader = structure.shader();
+  variant.segments_shader = segments ? segments->shader : "";
+}
+
+std::vector<Pass> passes(const KernelVariant& variant) {
+  std::vector<Pass> all = ray_passes(variant);
+  if (!variant.segments_shader.empty()) all.insert(all.begin(), Pass::segments);
+  return all;
 }
 
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
@@ -91,6 +108,7 @@ gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass) {
 gpu::ShaderFiles kernel_files(const KernelVariant& variant) {
   return [variant](std::string_view name) -> std::string_view {
     if (name == "structure.glsl") return shader_file(variant.structure_shader);
+    if (name == "segments.glsl") return shader_file(variant.segments_shader);
     if (name == "spline.glsl") return shader_file(variant.spline_shader);
     if (name == "intersect.glsl")
       return shader_file(variant.intersect == Intersect::exact ? "intersect_exact.glsl" : "intersect_march.glsl");

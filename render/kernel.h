@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "accel/structure.h"
 #include "gpu/gpu.h"
 #include "render/renderer.h"
 
@@ -14,6 +15,7 @@ struct KernelVariant {
   std::string spline_shader = "bcc7.glsl";
   std::string structure = "none";  ///< a name of structure_names()
   std::string structure_shader = "skip_none.glsl";
+  std::string segments_shader = "";  ///< of the structure's SegmentPass; empty where it has none
   bool cell_test = false;
   Intersect intersect = Intersect::exact;
   Normal normal = Normal::analytic;  ///< samples are central differences with another step: not told apart here
@@ -34,15 +36,18 @@ struct KernelVariant {
   auto operator<=>(const KernelVariant&) const = default;
 };
 
-/// The passes of a picture. Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
+/// Makes `variant` one of that structure.
+void set_structure(KernelVariant& variant, const SkippingStructure& structure);
+
+/// The passes of a picture. Where the structure has lists of segments, they are made (segments). Rays go to their first cell that may matter (enter). Those that have one are traced: by one pass
 /// (trace); or, where their first root is all there is to find, by one that finds it (seek) and one that shades it; or
 /// the volume along them is integrated (volume); or they only walk on (traverse).
-enum class Pass { enter, trace, seek, shade, volume, traverse };
+enum class Pass { segments, enter, trace, seek, shade, volume, traverse };
 
 /// Those that `variant` has, in order.
 std::vector<Pass> passes(const KernelVariant& variant);
 
-/// What compiling it needs. The includes structure.glsl, spline.glsl and intersect.glsl are the variant's own.
+/// What compiling it needs. The includes structure.glsl, segments.glsl, spline.glsl and intersect.glsl are the variant's own.
 gpu::KernelSource kernel_source(const KernelVariant& variant, Pass pass);
 gpu::ShaderFiles kernel_files(const KernelVariant& variant);
 

@@ -15,7 +15,7 @@ struct KernelPass {
   Pass pass;
   gpu::Pipeline pipeline;
 };
-/// Those of a variant, in order; the first one enters.
+/// Those of a variant, in order.
 using Kernels = std::vector<KernelPass>;
 
 class KernelCache {

@@ -29,6 +29,13 @@ struct BrickStats {
   double load_ms = 0.0;
 };
 
+/// Lists of segments that a structure makes for each ray of a frame before it enters (accel/structure.h, SegmentPass).
+struct SegmentStats {
+  int capacity = 0;        ///< of a list; 0: there are none
+  std::vector<double> ms;  ///< what making them took, one entry a frame; a part of trace_ms
+  std::uint64_t steps = 0, listed = 0, full = 0;  ///< of one frame: steps of making them, segments, lists that are full
+};
+
 /// What one call of Renderer::render cost. Milliseconds; 0 for what did not have to be done (again).
 struct RenderStats {
   std::string device;
@@ -49,6 +56,7 @@ struct RenderStats {
   std::uint64_t void_cells = 0;                   ///< of NanPolicy::empty
   std::uint64_t rays = 0, hits = 0;
   BrickStats bricks;
+  SegmentStats segments;
   std::uint64_t evaluations = 0, steps = 0, intervals = 0;  ///< of all rays; only where asked for
   std::optional<VoxelStats> voxels;  ///< of pictures of voxels
 };

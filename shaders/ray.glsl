@@ -10,7 +10,18 @@ struct Ray {
   ivec3 far;            // from a cell to its plane on that way, 1 or 0
   real begin, end;      // inside the domain, before the eye nothing
   rvec3 view;           // unit direction in the world
+#ifdef RAY_SEGMENTS
+  int number;           // of its pixel, by tiles of 8 x 8 pixels
+#endif
 };
+
+#ifdef RAY_SEGMENTS
+int ray_number(ivec2 pixel) {
+  ivec2 p = pixel - ivec2(0, parameters.picture.z);
+  int tiles = (parameters.picture.x + 7) >> 3;
+  return ((p.y >> 3) * tiles + (p.x >> 3)) * 64 + (p.y & 7) * 8 + (p.x & 7);
+}
+#endif
 
 // Keeps an axis the ray hardly moves along off the integer planes: a ray inside a face of the domain or of cells stays on one side.
 void step_off_planes(inout Ray ray, rvec3 centre) {
@@ -25,12 +36,15 @@ void step_off_planes(inout Ray ray, rvec3 centre) {
   ray.d = mix(ray.d, mix(rvec3(-least), rvec3(least), greaterThanEqual(ray.d, rvec3(0.0))), lessThan(abs(ray.d), rvec3(least)));
 }
 
-// The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` is left to the caller.
+// The part inside the domain, not before t_eye, of the ray o + t d; |d| = 1. `view` and `number` are left to the caller.
 Ray clipped_ray(rvec3 o, rvec3 d, real t_eye) {
   Ray ray;
   ray.o = o;
   ray.d = d;
   ray.view = rvec3(0.0);
+#ifdef RAY_SEGMENTS
+  ray.number = 0;
+#endif
 
   rvec3 centre = 0.5 * rvec3(parameters.cells.xyz);
   step_off_planes(ray, centre);
@@ -59,6 +73,9 @@ Ray make_ray(ivec2 pixel) {
   Ray ray = clipped_ray(o, d, -wide(parameters.base_hi.w, parameters.base_lo.w) * len);
   ray.view = normalize(wide(parameters.world_forward.xyz, parameters.world_forward_lo.xyz) + x * wide(parameters.world_right.xyz, parameters.world_right_lo.xyz) +
                        y * wide(parameters.world_up.xyz, parameters.world_up_lo.xyz));
+#ifdef RAY_SEGMENTS
+  ray.number = ray_number(pixel);
+#endif
   return ray;
 }
 

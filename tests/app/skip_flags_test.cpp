@@ -84,6 +84,8 @@ TEST(SkipFlags, OfAnotherStructureAreRefusedInOneLine) {
       {{"--skip", "bvh", "--cluster", "cubes", "--max-cluster", "0"}, {"--max-cluster", "0", "from 1 to 256"}},
       {{"--range-query", "tree"}, {"--range-query", "'tree'", "intervals, table, irt"}},
       {{"--skip", "kdtree", "--kd", "half"}, {"--kd", "'half'", "shallow, deep"}},
+      {{"--skip", "grid", "--max-segments", "4"}, {"--max-segments", "--skip grid", "--skip segments"}},
+      {{"--skip", "segments", "--max-segments", "65"}, {"--max-segments", "65", "from 1 to 64"}},
       {{"--block", "12"}, {"--block", "12", "power of two"}}};
   for (const auto& [flags, parts] : cases) {
     SCOPED_TRACE(testing::PrintToString(flags));

@@ -19,8 +19,7 @@ std::vector<KernelVariant> all_variants() {
     for (int bits = 0; bits < 256; ++bits) {
       KernelVariant v;
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
-      v.structure = structure->name();
-      v.structure_shader = structure->shader();
+      set_structure(v, *structure);
       v.cell_test = bits & 1;
       v.intersect = bits & 2 ? Intersect::march : Intersect::exact;
       v.normal = bits & 4 ? Normal::central : Normal::analytic;
@@ -46,8 +45,7 @@ std::vector<KernelVariant> volume_variants() {
     for (int bits = 0; bits < 512; ++bits) {
       KernelVariant v;
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
-      v.structure = structure->name();
-      v.structure_shader = structure->shader();
+      set_structure(v, *structure);
       v.volume = true;
       v.pre_integrated = bits & 1;
       v.adaptive = bits & 2;
@@ -79,8 +77,7 @@ std::vector<KernelVariant> void_variants() {
     for (int bits = 0; bits < 256; ++bits) {
       KernelVariant v;
       const std::unique_ptr<SkippingStructure> structure = make_structure(labelled_skip(label));
-      v.structure = structure->name();
-      v.structure_shader = structure->shader();
+      set_structure(v, *structure);
       v.voids = true;
       v.cell_test = bits & 1;
       v.intersect = bits & 2 ? Intersect::march : Intersect::exact;
@@ -203,6 +200,7 @@ TEST(Kernel, EveryVariantCompilesAndContainsExactlyWhatIsExplainedAndBindsNothin
     }
     std::set<std::string> expected{"uniforms", "Color", "Hit", "Rays"};
     expected.merge(buffers_of(v));
+    if (!v.segments_shader.empty()) expected.insert({"RaySegments", "raySegments", "SegmentCounts"});
     if (v.surfaces && !v.stub) expected.insert("Isosurfaces");
     if (v.volume && !v.stub) expected.insert("transferTable");
     if (v.cell_test) expected.insert("occupancy");

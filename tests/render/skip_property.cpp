@@ -20,9 +20,12 @@ constexpr const char* kKernel = R"(#version 460
 #include "spline.glsl"
 #include "isosurfaces.glsl"
 #include "walk.glsl"
+#ifdef RAY_SEGMENTS
+#include "segments.glsl"
+#endif
 layout(local_size_x = 64) in;
 layout(std430, binding = 20) buffer Tally { uint seen[]; };  // rays, stretches, points, violations of a lane
-layout(push_constant) uniform Push { vec4 eye; uint seed; };  // lattice coordinates; .w: whether all rays come from it
+layout(push_constant) uniform Push { vec4 eye; uint seed, listing; };  // lattice coordinates; .w: whether all rays come from it; whether to list segments alone
 
 uint state;
 float uniform01() {  // PCG: M. O'Neill, 2014
@@ -63,6 +66,13 @@ void main() {
   uniform01();
   Ray ray = random_ray();
   bool alive = ray.begin < ray.end;
+#ifdef RAY_SEGMENTS
+  ray.number = int(lane);
+  if (listing != 0u) {
+    list_segments(ray, true);
+    return;
+  }
+#endif
   uint stretches = 0u, violations = 0u;
   Walk walk = begin_walk(ray, ray.begin, ray.begin);
   bool seeking = alive;
@@ -95,7 +105,7 @@ void main() {
 
 struct Push {
   glm::vec4 eye;
-  std::uint32_t seed;
+  std::uint32_t seed, listing;
 };
 
 /// Inside the domain, near it or far from it, in lattice coordinates.
@@ -120,8 +130,7 @@ const gpu::Pipeline& property_pipeline(const SkipConfig& config) {
   static std::map<KernelVariant, gpu::Pipeline> made;
   KernelVariant variant;
   const auto structure = make_structure(config);
-  variant.structure = structure->name();
-  variant.structure_shader = structure->shader();
+  set_structure(variant, *structure);
   variant.cell_test = config.cell_test;
   variant.intersect = Intersect::march;  // evaluates points
   const auto found = made.find(variant);
@@ -166,8 +175,18 @@ SkippedSpace look_into_skipped_space(const AdversarialVolume& v, const SkipConfi
   resources.emplace_back("coefficients0", filled(std::as_bytes(std::span(coefficients.data)), gpu::BufferUse::texel, "coefficients", VK_FORMAT_R32_SFLOAT));
   resources.emplace_back("Tally", tallies);
   const bool from_eye = config.structure == "hybrid" || (config.structure == "kdtree" && config.kd == KdDepth::shallow);  // sorted for one eye
-  const Push push{glm::vec4(glm::vec3(eye), from_eye ? 1.0f : 0.0f), seed};
-  gpu::dispatch(device, pipeline, resources, std::as_bytes(std::span(&push, 1)).first(pipeline.reflection.push_constant_bytes), rays / 64);
+  const auto run = [&](bool listing) {
+    const Push push{glm::vec4(glm::vec3(eye), from_eye ? 1.0f : 0.0f), seed, listing};
+    gpu::dispatch(device, pipeline, resources, std::as_bytes(std::span(&push, 1)).first(pipeline.reflection.push_constant_bytes), rays / 64);
+  };
+  if (const auto pass = skipping.segment_pass()) {
+    const std::uint64_t bytes = std::uint64_t(rays) * std::uint64_t(pass->capacity) * 8;
+    const gpu::Buffer segments = gpu::create_buffer(device, bytes, gpu::BufferUse::texel, "ray segments", VK_FORMAT_R32G32_UINT);
+    resources.insert(resources.end(), {{"RaySegments", segments}, {"raySegments", segments},
+                                       {"SegmentCounts", gpu::create_buffer(device, 12, gpu::BufferUse::storage, "segment counts")}});
+    run(true);
+  }
+  run(false);
   gpu::download(device, tallies, std::as_writable_bytes(std::span(tally)));
 
   SkippedSpace seen;

@@ -22,7 +22,7 @@ TEST_P(SkippedSpaceOf, HoldsNoPointOfTheSurfaceAlongTenMillionRays) {
               static_cast<unsigned long long>(seen.points), static_cast<unsigned long long>(seen.stretches), seed - 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWay, SkippedSpaceOf, testing::Values("grid", "octree", "distance", "bvh", "bvh:cubes", "bvh:boxes", "bih", "kdtree:shallow", "kdtree:deep", "hybrid:mm", "hybrid:pc"),
+INSTANTIATE_TEST_SUITE_P(EveryWay, SkippedSpaceOf, testing::Values("grid", "octree", "distance", "bvh", "bvh:cubes", "bvh:boxes", "bih", "kdtree:shallow", "kdtree:deep", "hybrid:mm", "hybrid:pc", "segments"),
                          [](const auto& test) {
                            std::string name(test.param);
                            std::replace(name.begin(), name.end(), ':', '_');
