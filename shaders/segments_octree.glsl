@@ -36,13 +36,13 @@ void list_segments(Ray ray, bool wanted) {
     ivec3 block = cell_at(ray, t) >> shift;
     int leaf = int(texelFetch(blockLeaf, block_number(block)).r);
     int level = leaf >> 1;
-    bool active = walking && (leaf & 1) != 0;
-    bool begins = active && !open;
-    bool ends = walking && open && !active;
+    bool matters = walking && (leaf & 1) != 0;
+    bool begins = matters && !open;
+    bool ends = walking && open && !matters;
     if (ends) write_segment(ray, n, from, t);
     n += ends ? 1 : 0;
     from = begins ? t : ends ? NEVER : from;
-    open = walking ? active : open;
+    open = walking ? matters : open;
     real leave = exit_time(ray, (block >> level) << (level + shift), 1 << (level + shift));
     t = walking ? leave : t;
     steps += walkers;

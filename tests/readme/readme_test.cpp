@@ -140,6 +140,7 @@ TEST_F(Readme, TheStatisticsHaveTheKeysThatItNamesAndNoOthers) {
   written.merge(keys_of("--skip bvh --cluster"));
   written.merge(keys_of("--skip kdtree"));
   written.merge(keys_of("--skip hybrid"));
+  written.merge(keys_of("--skip segments"));
   written.merge(keys_of("--tf data/transfer/neghip_clear.json --adaptive 0.1 --modulate 1,2 --jitter 1"));
   written.merge(keys_of("--pool 1M --brick 16"));
 
