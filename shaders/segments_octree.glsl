@@ -18,8 +18,8 @@ layout(std430, binding = 23) writeonly buffer RaySegments {
 void write_segment(Ray ray, int n, real from, real until) { segments[segment_place(ray, n)] = floatBitsToUint(vec2(from, until)); }
 #endif
 layout(std430, binding = 24) buffer SegmentCounts {
-  uint steps, listed, full;  // leaves crossed, segments, lists that are full
-} counts;
+  uint all_steps, all_listed, all_full;  // leaves crossed, segments, lists that are full
+};
 
 // Makes the ray's list, where `wanted`.
 void list_segments(Ray ray, bool wanted) {
@@ -53,8 +53,8 @@ void list_segments(Ray ray, bool wanted) {
   if (wanted) write_segment(ray, n, from, NEVER);
   uint full = subgroupBallotBitCount(subgroupBallot(wanted && t < ray.end && open));
   if (subgroupElect()) {
-    atomicAdd(counts.steps, steps);
-    atomicAdd(counts.listed, listed);
-    atomicAdd(counts.full, full);
+    atomicAdd(all_steps, steps);
+    atomicAdd(all_listed, listed);
+    atomicAdd(all_full, full);
   }
 }

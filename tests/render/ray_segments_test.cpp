@@ -144,7 +144,7 @@ TEST_F(RaySegments, AscendDoNotTouchAndHoldTheActiveBlocksAndNothingElse) {
 TEST_F(RaySegments, OfAFullListHoldTheRestOfTheRay) {
   for (const int capacity : {1, 2}) {
     SCOPED_TRACE(capacity);
-    const AdversarialVolume v{"noise, rarely above", random_volume({12, 10, 9}, 5), 0.97};
+    const AdversarialVolume v{"noise, now and then above", random_volume({12, 10, 9}, 5), 0.9};
     const Lists lists = lists_of(v, {.structure = "segments", .block = 1, .cell_test = false, .max_segments = capacity});
     std::uint32_t full = 0;
     std::uint64_t beyond = 0;
@@ -154,7 +154,7 @@ TEST_F(RaySegments, OfAFullListHoldTheRestOfTheRay) {
       beyond += lists.tallies[ray].w;
     }
     EXPECT_LE(lists.counts[2], full);
-    EXPECT_GT(lists.counts[2], 100u);
+    EXPECT_GT(lists.counts[2], 50u);
     EXPECT_GT(beyond, 1000u);
   }
 }
@@ -165,7 +165,7 @@ TEST_F(RaySegments, TooShortForTheirRaysChangeNoPicture) {
   for (const Precision precision : {Precision::float32, Precision::float64})
     for (const bool tf : {false, true}) {
       SCOPED_TRACE(std::string(precision_name(precision)) + (tf ? ", a volume" : ", surfaces"));
-      Renderer::Request request = request_for(volume, 0.97, 52);
+      Renderer::Request request = request_for(volume, 0.9, 52);
       if (tf) {
         request.scene.isosurfaces.clear();
         request.scene.volume.emplace();
