@@ -1,7 +1,10 @@
 // D. Ganter, M. Manzke, "An analysis of region clustered BVH volume rendering on GPU", Computer Graphics Forum 38(8), 2019,
 // doi:10.1111/cgf.13756: its Table 1 and Figures 6, 7, 8 and 10 on other data, and clustering to boxes beside theirs to cubes. Its data sets
 // are not public; generated ones stand for them.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -26,6 +29,8 @@ double mean(const std::vector<double>& values) {
   for (const double value : values) sum += value;
   return sum / double(values.size());
 }
+
+std::string rounds_text(const PresetSize& size) { return fmt::format("Medians of {} round{} in turns.", size.cluster_rounds, size.cluster_rounds == 1 ? "" : "s"); }
 
 /// Calls row(clusters, cost) for single blocks, cubes and boxes.
 void for_each_clustering(const ClusterLine& line, const auto& row) {
@@ -59,6 +64,7 @@ void ganter_table1(PresetRun& run) {
   PresetReport& report = run.report();
   report.columns = {"data_set", "clusters", "block", "blocks", "active", "active_percent", "leaves", "leaves_percent", "cluster_ms", "bvh_ms", "published_leaves_percent"};
   report.left = 2;
+  report.setup = rounds_text(run.size());
   for (const PresetSource& source : run.sources({"strands", "solid parts", "vessels"}, run.size().cluster_cells)) {
     const PresetVolume data = source.make(run.bar().stage(source.name));
     const CellBounds cells = run.bounds(data);
@@ -100,6 +106,7 @@ void ganter_figure7(PresetRun& run) {
   PresetReport& report = run.report();
   report.columns = {"data_set", "clusters", "active_percent", "blocks", "active", "leaves", "cluster_ms", "bvh_ms", "sum_ms", "published"};
   report.left = 2;
+  report.setup = rounds_text(run.size());
   for (const auto& source : run.sources({"waves"}, run.size().cluster_cells)) {
     report.panels.push_back({.title = source.name, .x = "active_percent", .series = "clusters", .y = "sum_ms", .where = "data_set", .where_is = source.name, .x_label = "active blocks, %",
                              .y_label = "clusters and hierarchy, ms"});

@@ -52,7 +52,8 @@ std::string preset_pictures(const PresetReport& report) {
 
 std::string preset_caption(const PresetReport& report) {
   const Preset& preset = *report.preset;
-  std::string text = fmt::format("{}: {}, after {}. {}", preset.name, preset.shows, preset.paper, report.setup);
+  std::string text = fmt::format("{}: {}, after {}.", preset.name, preset.shows, preset.paper);
+  if (!report.setup.empty()) text += " " + report.setup;
   for (const std::string& note : report.notes) text += " " + note;
   text += fmt::format(" {}. Published: {}", machine_text(report.machine), preset.published);
   return report.whole ? text : text + " INTERRUPTED: rows are missing.";

@@ -28,7 +28,7 @@ struct PresetPanel {
 /// A whole run.
 struct PresetReport {
   const Preset* preset = nullptr;  ///< not null
-  std::string setup;               ///< sizes, in words
+  std::string setup;               ///< what was measured, in sentences; may be empty
   std::vector<std::string> notes;  ///< sentences, to stand behind
   bool full = false, whole = true;  ///< whole: nothing is missing
   Machine machine;

@@ -27,8 +27,7 @@ PresetVolume read_preset_volume(const std::string& path, double threshold, const
   return read;
 }
 
-std::string setup_text(const PresetSize& size, bool rendered) {
-  if (!rendered) return fmt::format("Medians of {} round{} in turns.", size.cluster_rounds, size.cluster_rounds == 1 ? "" : "s");
+std::string frames_text(const PresetSize& size) {
   return fmt::format("{} x {} pixels, {} view{} of an orbit, {} round{}, blocks of {} cells, no cell test, unlit, steps of 1 cell.", size.width, size.height, size.views,
                      size.views == 1 ? "" : "s", size.rounds, size.rounds == 1 ? "" : "s", size.block);
 }
@@ -49,7 +48,7 @@ void PresetRun::check(const Preset& preset) const {
                                  found == 1 ? "" : "s", volumes, volumes == 1 ? "" : "s"));
 }
 
-std::vector<PresetSource> PresetRun::sources(std::initializer_list<std::string_view> generated, int cells) const {
+std::vector<PresetSource> PresetRun::sources(std::initializer_list<std::string_view> generated, int cells) {
   std::vector<PresetSource> all;
   for (std::size_t n = 0; n < wishes_.volumes.size(); ++n) {
     const std::string path = wishes_.volumes[n];
@@ -57,15 +56,16 @@ std::vector<PresetSource> PresetRun::sources(std::initializer_list<std::string_v
     all.push_back({std::filesystem::path(path).stem().string(), [path, threshold](const Progress& progress) { return read_preset_volume(path, threshold, progress); }});
   }
   if (!all.empty()) return all;
-  const LatticeKind lattice = make_spline(wishes_.spline.empty() ? "trilinear" : wishes_.spline)->lattice();
+  const LatticeKind lattice = generated_lattice();
+  report_.notes.push_back(fmt::format("Volumes are generated, {} cells along an axis.", cells));
   for (const std::string_view name : generated)
     all.push_back({std::string(name), [name, lattice, cells](const Progress& progress) { return generated_volume(name, lattice, cells, progress); }});
   return all;
 }
 
-PresetVolume PresetRun::balls(int count, double radius) const {
-  return generated_balls(count, radius, make_spline(wishes_.spline.empty() ? "trilinear" : wishes_.spline)->lattice(), size().cells);
-}
+PresetVolume PresetRun::balls(int count, double radius) const { return generated_balls(count, radius, generated_lattice(), size().cells); }
+
+LatticeKind PresetRun::generated_lattice() const { return wishes_.spline.empty() ? LatticeKind::cartesian : make_spline(wishes_.spline)->lattice(); }
 
 std::vector<std::string> PresetRun::known(std::initializer_list<std::string_view> labels) {
   std::vector<std::string> found;
@@ -145,7 +145,7 @@ bool run_preset(std::string_view name, PresetRun& run) {
     report.whole = false;
   }
   report.machine = this_machine(report.machine.device);
-  report.setup = setup_text(run.size(), !report.machine.device.empty());
+  if (!report.machine.device.empty()) report.setup = frames_text(run.size());
   return report.whole;
 }
 

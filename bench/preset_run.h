@@ -25,7 +25,7 @@ struct PresetSize {
   int cluster_cells = 256;           ///< along an axis of those whose blocks are clustered alone
   std::vector<int> cluster_blocks{4, 8, 16};  ///< edges of their blocks in cells, ascending
   int width = 256, height = 256;
-  int views = 4, rounds = 1;         ///< of an orbit; of its timed frames
+  int views = 4, rounds = 3;         ///< of an orbit; of its timed frames
   int cluster_rounds = 3;            ///< of clustering and building
 
   /// Of `--full`: 64^3 and 256^3 blocks to cluster, as in D. Ganter and M. Manzke's Table 1; volumes of 512^3 cells.
@@ -60,7 +60,7 @@ class PresetRun {
   void check(const Preset& preset) const;
 
   /// The files that are asked for, else generated volumes of these names, of `cells` cells along an axis.
-  std::vector<PresetSource> sources(std::initializer_list<std::string_view> generated, int cells) const;
+  std::vector<PresetSource> sources(std::initializer_list<std::string_view> generated, int cells);
   PresetVolume balls(int count, double radius) const;
   /// Those of `labels` that are of skip_labels() and are asked for; a note where one is no way to skip of this program.
   std::vector<std::string> known(std::initializer_list<std::string_view> labels);
@@ -75,6 +75,8 @@ class PresetRun {
   void sweep(Renderer& renderer, const PresetVolume& volume, const DirectVolume& look, std::span<const std::string> labels, const Row& row);
 
  private:
+  LatticeKind generated_lattice() const;
+
   const PresetWishes& wishes_;
   ProgressBar& bar_;
   PresetReport report_;

@@ -1,6 +1,7 @@
 // S. Zellmann, "Comparing Hierarchical Data Structures for Sparse Volume Rendering with Empty Space Skipping", technical report, 2019,
 // doi:10.36227/techrxiv.11416422, and S. Zellmann, D. Meurer, U. Lang, "Hybrid Grids for Sparse Volume Rendering", IEEE VIS 2019,
-// doi:10.1109/VISUAL.2019.8933631: Table 1 and Figures 3 to 5 of the former on other data, with the structures of both. Generated volumes stand for its data sets.
+// doi:10.1109/VISUAL.2019.8933631: Table 1 and Figures 3 to 5 on other data, with the structures of both.
+// Generated volumes stand for the data sets.
 #include <algorithm>
 #include <utility>
 

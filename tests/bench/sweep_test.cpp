@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "accel/structure.h"
+#include "bench/presets.h"
 #include "io/volume_file.h"
 #include "lattice/field.h"
 #include "tests/app/program.h"
@@ -164,6 +165,44 @@ TEST_F(SweepProgram, PrintsTheJsonThatItWrites) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, read_file(out + "/sweep.json"));
   EXPECT_EQ(json::parse(outcome.out)["settings"][0]["frames_ms"].size(), 4u);
+}
+
+TEST_F(SweepProgram, MakesAPublishedExperimentAgain) {
+  const Outcome outcome = run({"sweep", "--preset", "ganter-table1", kNeghip, "--iso", "40", "-o", out});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(read_file(out + "/ganter-table1.json"));
+  EXPECT_EQ(report["preset"], "ganter-table1");
+  ASSERT_EQ(report["rows"].size(), 9u);  // three sizes of blocks, merged in two ways and not at all
+  EXPECT_EQ(read_csv(out + "/ganter-table1.csv").size(), 9u);
+  EXPECT_EQ(report["rows"][0]["data_set"], "neghip_bcc");
+  EXPECT_THAT(read_file(out + "/ganter-table1.md"), HasSubstr("| data set"));
+  EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("Ganter"), HasSubstr("22,058 active of 262,144 blocks")));
+  EXPECT_FALSE(std::filesystem::exists(out + "/ganter-table1.svg"));  // it is no figure
+}
+
+TEST_F(SweepProgram, SaysWhichExperimentsThereAre) {
+  const std::string list = run({"sweep", "--list-presets"}).out, help = run({"sweep", "--help"}).out;
+  for (const std::string& name : preset_names()) {
+    EXPECT_THAT(list, HasSubstr(name));
+    EXPECT_THAT(help, HasSubstr(name));
+  }
+}
+
+TEST_F(SweepProgram, RefusesWithAPresetWhatItFixes) {
+  expect_refused({"sweep", "--preset", "ganter", "-o", out}, {"--preset", "ganter-table1"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--blocks", "4", "-o", out}, {"--blocks", "ganter-table1"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--size", "64", "64", "-o", out}, {"--size", "ganter-table1"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--orbit", "2", "-o", out}, {"--orbit", "fixes"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--tf", "f.json", "-o", out}, {"--tf", "fixes"});
+  expect_refused({"sweep", "--preset", "ganter-table1"}, {"--output"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--device", "cpu", "-o", out}, {"--device"});
+  expect_refused({"sweep", "--preset", "ganter-table1", kNeghip, "-o", out}, {"--iso", "0 values for 1 volume"});
+  expect_refused({"sweep", "--preset", "ganter-table1", kNeghip, "--iso", "4000", "-o", out}, {"--iso", "4000", "neghip"});
+  expect_refused({"sweep", "--preset", "ganter-table1", "--iso", "40", "-o", out}, {"--iso", "no volume"});
+  expect_refused({"sweep", "--preset", "zellmann-figure5", kNeghip, "--iso", "40", "-o", out}, {"VOLUME", "makes its own"});
+  expect_refused({"sweep", kNeghip, "--iso", "40", "--full", "-o", out}, {"--full", "--preset"});
+  expect_refused({"sweep", kNeghip, kNeghip, "--iso", "40", "-o", out}, {"VOLUME", "2 files"});
+  expect_refused({"sweep", "--iso", "40", "-o", out}, {"VOLUME", "--preset"});
 }
 
 TEST_F(SweepProgram, InterruptedLeavesNothingOrWholeFiles) {
