@@ -80,13 +80,16 @@ void walk(Frames& frames, std::size_t setting, std::size_t views, SweepMeasureme
   }
 }
 
-/// Adds one timed frame of each view.
+/// Adds one timed frame of each view, or none where one is interrupted.
 void time_views(Frames& frames, std::size_t setting, std::size_t views, SweepMeasurement& m) {
+  std::vector<double> frame_ms, segments_ms;
   for (std::size_t view = 0; view < views; ++view) {
     const RenderStats stats = frames.render(frames.request(setting, view)).stats;
-    m.cost.frame_ms.push_back(stats.trace_ms.front());
-    if (!stats.segments.ms.empty()) m.segments_ms.push_back(stats.segments.ms.front());
+    frame_ms.push_back(stats.trace_ms.front());
+    if (!stats.segments.ms.empty()) segments_ms.push_back(stats.segments.ms.front());
   }
+  m.cost.frame_ms.insert(m.cost.frame_ms.end(), frame_ms.begin(), frame_ms.end());
+  m.segments_ms.insert(m.segments_ms.end(), segments_ms.begin(), segments_ms.end());
 }
 
 /// `truth`: the first setting's frames, by view, which that setting's own round leaves there.
