@@ -72,7 +72,7 @@ std::string panel_script(const PresetReport& report, const PresetPanel& panel, c
     const char* color = kColors[n % kColors.size()];
     plots.push_back(bars ? fmt::format("${}{} using 1:2 with boxes lc rgb '{}' title {}", prefix, n, color, gnuplot_string(series[n]))
                          : fmt::format("${}{} using 1:2 with linespoints lw 2 pt {} ps 0.8 lc rgb '{}' title {}", prefix, n, kShapes[n % kShapes.size()], color, gnuplot_string(series[n])));
-    if (whiskers) plots.push_back(fmt::format("${}{} using 1:2:3:4 with yerrorbars pt 0 lc rgb '#303030' notitle", prefix, n));
+    if (whiskers) plots.push_back(fmt::format("${}{} using 1:2:3:4 with yerrorbars ps 0 lc rgb '#303030' notitle", prefix, n));
   }
   return text + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
 }

@@ -31,7 +31,7 @@ PresetWishes tiny_wishes() {
 }
 
 /// The rows of one run at that size.
-PresetReport run_tiny(std::string_view name, const PresetWishes& wishes = tiny_wishes()) {
+PresetReport run_tiny(std::string_view name, const PresetWishes& wishes) {
   ProgressBar bar(Verbosity::quiet);
   PresetRun run(wishes, bar);
   EXPECT_TRUE(run_preset(name, run));
@@ -73,25 +73,8 @@ TEST(Presets, HaveNamesOfTheirOwnAndSayAfterWhomAndWhatIsNotKnown) {
   EXPECT_THROW(preset_of("ganter"), InputError);
 }
 
-class PresetMeasured : public testing::TestWithParam<std::string> {};
-
-/// Rows: data sets, or cases, times what is measured of each; two structures and none where frames are rendered.
-TEST_P(PresetMeasured, HasTheRowsOfItsTable) {
-  static const std::map<std::string, std::size_t> rows{{"ganter-table1", 3 * 2 * 3},   {"ganter-figure6", 3 * 1},      {"ganter-figure7", 1 * 6 * 3},   {"ganter-figure8", 3 * 2},
-                                                       {"ganter-figure10", 2 * 2 * 3}, {"zellmann-table1", 4 * 2},     {"zellmann-figure3", 4 * 2},     {"zellmann-figure4", 1 * 2},
-                                                       {"zellmann-figure5", 9 * 2},    {"kinkelin-table3", 3 * 2 * 2}};
-  const PresetReport report = run_tiny(GetParam());
-  EXPECT_EQ(report.rows.size(), rows.at(GetParam()));
-  expect_whole_table(report);
-  EXPECT_EQ(report.panels.empty(), GetParam().find("table") != std::string::npos);
-  if (!report.panels.empty()) { EXPECT_THAT(preset_plot_script(report), HasSubstr("plot $panel0_0")); }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, PresetMeasured, testing::ValuesIn(preset_names()),
-                         [](const auto& tested) { std::string name = tested.param; std::replace(name.begin(), name.end(), '-', '_'); return name; });
-
-TEST(PresetGanterTable1, PrintsPublishedLeavesBesideCubesOfTheSameCharacterAlone) {
-  const PresetReport report = run_tiny("ganter-table1");
+/// Published leaves stand beside cubes of data of the same character alone.
+void check_ganter_table1(const PresetReport& report) {
   EXPECT_EQ(words(report, "data_set"), (std::vector<std::string>{"strands", "solid parts", "vessels"}));
   for (const auto& row : report.rows) {
     const bool told = row[report.column("clusters")] == "cubes" && row[0] != "vessels";
@@ -100,8 +83,7 @@ TEST(PresetGanterTable1, PrintsPublishedLeavesBesideCubesOfTheSameCharacterAlone
   }
 }
 
-TEST(PresetGanterFigure7, HasActivePartsFrom8To100Percent) {
-  const PresetReport report = run_tiny("ganter-figure7");
+void check_active_parts(const PresetReport& report) {
   std::vector<double> parts;
   for (const auto& row : report.rows)
     if (row[report.column("clusters")] == "cubes") parts.push_back(row[report.column("active_percent")]);
@@ -110,19 +92,52 @@ TEST(PresetGanterFigure7, HasActivePartsFrom8To100Percent) {
   for (std::size_t n = 0; n < wanted.size(); ++n) EXPECT_NEAR(parts[n], wanted[n], 1.0);
 }
 
-TEST(PresetGanterFigure10, HasTheSameActiveBlocksThroughBothFunctions) {
-  const PresetReport report = run_tiny("ganter-figure10");
+void check_same_active_blocks(const PresetReport& report) {
   const std::size_t active = report.column("active"), function = report.column("function");
   for (const auto& row : report.rows)
     for (const auto& other : report.rows)
       if (row[0] == other[0] && !row[active].is_null() && !other[active].is_null()) { EXPECT_EQ(row[active], other[active]) << row[function] << other[function]; }
 }
 
-TEST(PresetZellmannFigure4, LeavesNothingEmpty) {
-  const PresetReport report = run_tiny("zellmann-figure4");
+void check_nothing_empty(const PresetReport& report) {
   for (const auto& row : report.rows)
     if (row[report.column("structure")] != "none") { EXPECT_EQ(row[report.column("active_percent")], 100.0); }
 }
+
+/// Rows: data sets, or cases, times what is measured of each; two structures and, where frames are shown, none.
+struct Expected {
+  std::size_t rows;
+  void (*check)(const PresetReport&);
+};
+void no_more(const PresetReport&) {}
+
+const std::map<std::string, Expected> kExpected{{"ganter-table1", {3 * 2 * 3, check_ganter_table1}},
+                                                {"ganter-figure6", {3 * 1, no_more}},
+                                                {"ganter-figure7", {1 * 6 * 3, check_active_parts}},
+                                                {"ganter-figure8", {3 * 2, no_more}},
+                                                {"ganter-figure10", {2 * 2 * 3, check_same_active_blocks}},
+                                                {"zellmann-table1", {4 * 2, no_more}},
+                                                {"zellmann-figure3", {4 * 2, no_more}},
+                                                {"zellmann-figure4", {1 * 2, check_nothing_empty}},
+                                                {"zellmann-figure5", {9 * 2, no_more}},
+                                                {"kinkelin-table3", {3 * 2 * 2, no_more}}};
+
+class PresetMeasured : public testing::TestWithParam<std::string> {};
+
+TEST_P(PresetMeasured, HasTheRowsOfItsTable) {
+  const PresetReport report = run_tiny(GetParam(), tiny_wishes());
+  EXPECT_EQ(report.rows.size(), kExpected.at(GetParam()).rows);
+  kExpected.at(GetParam()).check(report);
+  expect_whole_table(report);
+  EXPECT_EQ(report.panels.empty(), GetParam().find("table") != std::string::npos);
+  if (!report.panels.empty()) { EXPECT_THAT(preset_plot_script(report), HasSubstr("plot $panel0_0")); }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PresetMeasured, testing::ValuesIn(preset_names()), [](const auto& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST(PresetRun, TakesFilesInPlaceOfGeneratedVolumesAndTheSplineOfTheirLattice) {
   PresetWishes wishes = tiny_wishes();
@@ -144,7 +159,11 @@ TEST(PresetRun, InterruptedKeepsTheRowsThatAreComplete) {
   report.columns = {"word", "number"};
   report.rows = {{"a,\"b\"", nullptr}, {"c", 0.1}};
   report.whole = false;
-  EXPECT_THAT(preset_text(report), HasSubstr("INTERRUPTED"));
+  EXPECT_THAT(preset_text(report), testing::AllOf(HasSubstr("INTERRUPTED"), testing::Not(HasSubstr("pictures"))));
+  report.compared = 2;
+  EXPECT_THAT(preset_text(report), HasSubstr("2 other settings are those of none, bit for bit"));
+  report.differing = {"strands, grid: 3 pixels"};
+  EXPECT_THAT(preset_text(report), HasSubstr("DIFFERENT PICTURES: strands, grid: 3 pixels"));
   EXPECT_EQ(preset_csv(report), "word,number\n\"a,\"\"b\"\"\",\nc,0.1\n");
   EXPECT_EQ(preset_table(report).rows[0][1], "-");
 }
