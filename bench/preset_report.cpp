@@ -55,7 +55,7 @@ std::string preset_caption(const PresetReport& report) {
   std::string text = fmt::format("{}: {}, after {}.", preset.name, preset.shows, preset.paper);
   if (!report.setup.empty()) text += " " + report.setup;
   for (const std::string& note : report.notes) text += " " + note;
-  text += fmt::format(" {}. Published: {}", machine_text(report.machine), preset.published);
+  text += fmt::format(" Measured {}{}. Published: {}", report.machine.device.empty() ? "" : "with ", machine_text(report.machine), preset.published);
   return report.whole ? text : text + " INTERRUPTED: rows are missing.";
 }
 
