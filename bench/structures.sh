@@ -33,11 +33,12 @@ measure() {  # VOLUMES OUT
   for name in "${presets[@]}"; do "$program" sweep --preset "$name" --quiet -o "$2/$name"; done
 }
 
-# A scene's line from its sweep.json: the median frame of each structure, and how many pictures were the same.
+# A scene's line from its sweep.json: the median frame of each structure, and how many pictures were the same. What --skip auto took in another way stands behind them and is left out.
 line='
+def each: reduce .settings[] as $s ([]; if any(.[]; .structure == $s.structure) then . else . + [$s] end);
 def short: if . >= 100 then round | tostring else (. * 10 | round / 10 | tostring) end;
-(.settings | map(select(.structure != "none")) | min_by(.frame_ms_median)) as $best
-| "| " + ([$scene] + [.settings[] | select(.block == null or .block == 8) | if .structure == $best.structure then "**\(.frame_ms_median | short)**" else .frame_ms_median | short end]
+each as $each | ($each | map(select(.structure != "none")) | min_by(.frame_ms_median)) as $best
+| "| " + ([$scene] + [$each[] | if .structure == $best.structure then "**\(.frame_ms_median | short)**" else .frame_ms_median | short end]
   + ["\([.settings[] | select(.structure != "none" and .differing_pixels == 0)] | length) of \([.settings[] | select(.structure != "none")] | length)"] | join(" | ")) + " |"'
 heading='"| scene | " + ([.settings[] | .structure] | join(" | ")) + " | same picture |\n|:--|" + ([.settings[] | "--:|"] | join("")) + "--:|"'
 
