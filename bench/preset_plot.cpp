@@ -66,12 +66,16 @@ std::string panel_script(const PresetReport& report, const PresetPanel& panel, c
   } else {
     text += "set xrange [*:*]\nset xtics nomirror autofreq\n";
   }
+  std::vector<std::string> everywhere;  // a series looks the same in every panel
+  for (const auto& row : report.rows)
+    if (row[s].is_string()) place(everywhere, row[s].get<std::string>());
   std::vector<std::string> plots;
   for (std::size_t n = 0; n < series.size(); ++n) {
     text += fmt::format("${}{} << EOD\n{}EOD\n", prefix, n, points[n]);
-    const char* color = kColors[n % kColors.size()];
+    const std::size_t look = place(everywhere, series[n]);
+    const char* color = kColors[look % kColors.size()];
     plots.push_back(bars ? fmt::format("${}{} using 1:2 with boxes lc rgb '{}' title {}", prefix, n, color, gnuplot_string(series[n]))
-                         : fmt::format("${}{} using 1:2 with linespoints lw 2 pt {} ps 0.8 lc rgb '{}' title {}", prefix, n, kShapes[n % kShapes.size()], color, gnuplot_string(series[n])));
+                         : fmt::format("${}{} using 1:2 with linespoints lw 2 pt {} ps 0.8 lc rgb '{}' title {}", prefix, n, kShapes[look % kShapes.size()], color, gnuplot_string(series[n])));
     if (whiskers) plots.push_back(fmt::format("${}{} using 1:2:3:4 with yerrorbars ps 0 lc rgb '#303030' notitle", prefix, n));
   }
   return text + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));

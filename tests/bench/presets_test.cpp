@@ -228,5 +228,23 @@ TEST(PresetVolumes, OfWavesAreSmoothAndTheSameAlongARowAsAtItsSamples) {
   EXPECT_LT(along_x, 64.0);
 }
 
+TEST(PresetPlot, ASeriesLooksTheSameInEveryPanelAlsoWhereAnotherIsMissing) {
+  PresetReport report;
+  report.preset = &presets().front();
+  report.columns = {"clusters", "structure", "build_ms", "frame_ms"};
+  report.left = 0;
+  report.rows = {{1, "none", nullptr, 9.0}, {1, "grid", 0.5, 3.0}};
+  report.panels = {{.title = "frames", .x = "clusters", .series = "structure", .y = "frame_ms"}, {.title = "construction", .x = "clusters", .series = "structure", .y = "build_ms"}};
+  const std::string script = preset_plot_script(report);
+  const auto look_of = [&](const std::string& block) {
+    const std::size_t from = script.find("$" + block + " using");
+    EXPECT_NE(from, std::string::npos) << block;
+    const std::string line = script.substr(from, script.find('\n', from) - from);
+    return line.substr(line.find(" pt "), line.find(" title ") - line.find(" pt "));
+  };
+  EXPECT_EQ(look_of("panel1_0"), look_of("panel0_1")) << "grid";
+  EXPECT_NE(look_of("panel0_0"), look_of("panel0_1"));
+}
+
 }  // namespace
 }  // namespace quincunx
