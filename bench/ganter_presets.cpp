@@ -154,7 +154,8 @@ void ganter_figure10(PresetRun& run) {
   report.columns = {"data_set", "function", "structure", "active", "frame_ms", "least_ms", "most_ms", "speedup", "published"};
   report.left = 3;
   for (const std::string function : {"opaque", "clear"})
-    report.panels.push_back({.title = function, .x = "data_set", .series = "structure", .y = "frame_ms", .low = "least_ms", .high = "most_ms", .where = "function", .where_is = function, .y_label = "frame, ms (mean, range)"});
+    report.panels.push_back({.title = function, .x = "data_set", .series = "structure", .y = "frame_ms", .low = "least_ms", .high = "most_ms",
+                             .where = "function", .where_is = function, .y_label = "frame, ms (mean, range)"});
   report.notes = {"Means over the orbit; speed-up over none."};
   const auto labels = run.known({"bvh", "bvh:cubes", "bvh:boxes", "segments", "octree", "distance", "grid"});
   for (const PresetSource& source : run.sources({"strands", "vessels"}, run.size().cells)) {

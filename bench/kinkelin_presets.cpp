@@ -55,7 +55,8 @@ void kinkelin_table3(PresetRun& run) {
       for (const std::string& label : labels) {
         const Built built = build(label, bounds, blocks, thresholds);
         const bool tree = built.report.nodes > 0;
-        report.rows.push_back({source.name, label, block, blocks.level.size(), blocks.active_blocks, built.report.leaves > 0 ? Json(built.report.leaves) : Json(nullptr), tree ? Json(built.report.nodes) : Json(nullptr), one_child(built.report),
+        report.rows.push_back({source.name, label, block, blocks.level.size(), blocks.active_blocks,
+                               built.report.leaves > 0 ? Json(built.report.leaves) : Json(nullptr), tree ? Json(built.report.nodes) : Json(nullptr), one_child(built.report),
                                tree ? Json(built.report.depth) : Json(nullptr), built.bytes, double(built.bytes) / double(grid), nullptr});
       }
     }

@@ -1,4 +1,5 @@
-// quincunx-bench: error against time, time against size, leaves against time, ways to ask for opacity, volumes against a closed form, orders of approximation, 32-bit against 64-bit floats, voxels against samples.
+// quincunx-bench: error against time, time against size, leaves against time, ways to ask for opacity, volumes against a closed form, orders of
+// approximation, 32-bit against 64-bit floats, voxels against samples.
 #include "app/program.h"
 #include "bench/cluster.h"
 #include "bench/convergence.h"

@@ -157,7 +157,8 @@ void voxels(const VoxelsFlags& flags) {
       "{}, transfer function {}, {} x {}, {} views, {} rounds; {}. MB on the device of coefficients, or of voxels, places and tree, and as a multiple of the samples in the file; "
       "RMS of colours in 1/255 against the first line; made: once, prefilter and bounds, or resampling, voxels and tree; frame: median.",
       flags.scene.volume, flags.scene.look.transfer_function, flags.scene.scene.width, flags.scene.scene.height, flags.views, flags.rounds, machine_text(this_machine(device)));
-  if (!flags.json.empty()) write_text(Json{{"volume", flags.scene.volume}, {"transfer_function", flags.scene.look.transfer_function}, {"lines", voxels_json(lines, flags.views)}}.dump(2) + "\n", flags.json);
+  if (!flags.json.empty()) write_text(Json{{"volume", flags.scene.volume}, {"transfer_function", flags.scene.look.transfer_function}, {"lines", voxels_json(lines, flags.views)}}.dump(2) + "\n",
+                                      flags.json);
   fmt::print("{}", flags.markdown ? markdown_text(table) + "\n" + caption + "\n" : caption + "\n\n" + plain_text(table));
 }
 
