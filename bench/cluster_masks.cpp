@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/portable_random.h"
+#include "bench/drawn_shapes.h"
 #include "lattice/error.h"
 
 namespace quincunx {
@@ -56,8 +56,6 @@ class Painter {
   Classification mask_;
 };
 
-bool outside(const dvec3& p, double edge) { return glm::clamp(p, 0.0, edge) != p; }
-
 void strands(Painter& painter) {
   PortableRandom random;
   while (painter.active_part() < 1.0 / 12.0) {
@@ -65,37 +63,18 @@ void strands(Painter& painter) {
     dvec3 p = random.point(painter.edge()), d = random.direction();
     for (; !outside(p, painter.edge()); p += 0.5 * d) {
       painter.ellipsoid(p, dvec3(radius));
-      d = glm::normalize(d + 0.1 * random.direction());
+      d = wound(d, 0.1, random);
     }
   }
 }
 
 void solid_parts(Painter& painter) {
   PortableRandom random;
-  const double edge = painter.edge();
-  while (painter.active_part() < 1.0 / 7.0) {
-    const dvec3 middle = random.point(edge);
-    painter.ellipsoid(middle, edge * dvec3{random.uniform(0.05, 0.2), random.uniform(0.05, 0.2), random.uniform(0.05, 0.2)});
-  }
-}
-
-/// A vessel from p along d, then the two that it divides into.
-void vessel(Painter& painter, PortableRandom& random, dvec3 p, dvec3 d, double radius) {
-  if (radius < 0.7) return;
-  const double length = radius * random.uniform(6.0, 10.0), step = 0.5 * radius;
-  for (double along = 0.0; along < length; along += step, p += step * d) {
-    if (outside(p, painter.edge())) return;
-    painter.ellipsoid(p, dvec3(radius));
-    d = glm::normalize(d + 0.1 * random.direction());
-  }
-  const double child = radius / std::cbrt(2.0);  // the cubes of the radii add up
-  for (int n = 0; n < 2; ++n) vessel(painter, random, p, glm::normalize(d + 0.8 * random.direction()), child);
+  while (painter.active_part() < 1.0 / 7.0) draw_solid_part(painter, random);
 }
 
 void vessels(Painter& painter) {
-  PortableRandom random;
-  const double edge = painter.edge();
-  for (int n = 0; n < 3; ++n) vessel(painter, random, edge * dvec3{0.25 + 0.25 * n, 0.5, 0.0}, dvec3(0.0, 0.0, 1.0), std::max(edge / 24.0, 1.0));
+  draw_vessels(painter, 0.7, [](int) {});
 }
 
 /// Blocks that g = sin x cos y + sin y cos z + sin z cos x, whose gradient is at most sqrt(3) long, may be 0 in.

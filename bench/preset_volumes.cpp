@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-#include "bench/portable_random.h"
+#include "bench/drawn_shapes.h"
 #include "lattice/error.h"
 
 namespace quincunx {
@@ -88,8 +88,6 @@ class Splatter {
   int blocks_ = 0;
 };
 
-bool outside(const dvec3& u, double edge) { return glm::clamp(u, 0.0, edge) != u; }
-
 /// Calls `add` until `part` of the blocks are active.
 void add_until(Splatter& splatter, double part, const Progress& progress, const auto& add) {
   while (splatter.active_part() < part) {
@@ -105,40 +103,18 @@ void strands(Splatter& splatter, const Progress& progress) {
     dvec3 u = random.point(splatter.edge()), d = random.direction();
     for (; !outside(u, splatter.edge()) && splatter.active_part() < 1.0 / 12.0; u += 0.5 * radius * d) {
       splatter.ellipsoid(u, dvec3(radius));
-      d = glm::normalize(d + 0.1 * random.direction());
+      d = wound(d, 0.1, random);
     }
   });
 }
 
 void solid_parts(Splatter& splatter, const Progress& progress) {
   PortableRandom random;
-  const double edge = splatter.edge();
-  add_until(splatter, 1.0 / 7.0, progress, [&] {
-    const dvec3 middle = random.point(edge);
-    splatter.ellipsoid(middle, edge * dvec3{random.uniform(0.05, 0.2), random.uniform(0.05, 0.2), random.uniform(0.05, 0.2)});
-  });
-}
-
-/// A vessel from u along d, then the two that it divides into.
-void vessel(Splatter& splatter, PortableRandom& random, dvec3 u, dvec3 d, double radius) {
-  if (radius < 1.0) return;
-  const double length = radius * random.uniform(6.0, 10.0), step = 0.5 * radius;
-  for (double along = 0.0; along < length; along += step, u += step * d) {
-    if (outside(u, splatter.edge())) return;
-    splatter.ellipsoid(u, dvec3(radius));
-    d = glm::normalize(d + 0.1 * random.direction());
-  }
-  const double child = radius / std::cbrt(2.0);  // the cubes of the radii add up
-  for (int n = 0; n < 2; ++n) vessel(splatter, random, u, glm::normalize(d + 0.8 * random.direction()), child);
+  add_until(splatter, 1.0 / 7.0, progress, [&] { draw_solid_part(splatter, random); });
 }
 
 void vessels(Splatter& splatter, const Progress& progress) {
-  PortableRandom random;
-  const double edge = splatter.edge();
-  for (int n = 0; n < 3; ++n) {
-    report(progress, n / 3.0);
-    vessel(splatter, random, edge * dvec3{0.25 + 0.25 * n, 0.5, 0.0}, dvec3(0.0, 0.0, 1.0), std::max(edge / 24.0, 1.0));
-  }
+  draw_vessels(splatter, 1.0, [&](int n) { report(progress, n / 3.0); });
 }
 
 void points(Splatter& splatter, const Progress& progress) {
