@@ -15,18 +15,6 @@ using Function = std::function<double(const glm::dvec3&)>;
 
 const glm::dvec3 kColor{0.9, 0.5, 0.2};
 
-Volume cartesian_volume(const Extents& n, const Function& f, const World& world) {
-  Volume volume;
-  volume.extents = n;
-  volume.world = world;
-  std::vector<float> samples;
-  for (int k = 0; k < n.z; ++k)
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) samples.push_back(float(f({i, j, k})));
-  volume.samples = std::move(samples);
-  return volume;
-}
-
 /// A spline through f (lattice coordinates), 24 cells or so along each axis, and a ray through it.
 struct Line {
   std::unique_ptr<Spline> spline;

@@ -16,18 +16,6 @@ struct VoidVolume {
   Volume volume;
 };
 
-inline Volume cartesian_volume(const Extents& n, const std::function<double(const glm::dvec3&)>& f, const World& world = {}) {
-  Volume volume;
-  volume.extents = n;
-  volume.world = world;
-  std::vector<float> samples;
-  for (int k = 0; k < n.z; ++k)
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) samples.push_back(float(f(glm::dvec3(i, j, k))));
-  volume.samples = std::move(samples);
-  return volume;
-}
-
 /// A field on `lattice`, about 23 cells along each axis.
 inline Volume field_volume(LatticeKind lattice, const std::function<double(const glm::dvec3&)>& f, const World& world = {}) {
   return lattice == LatticeKind::bcc ? bcc_volume({12, 12, 12}, f, world) : cartesian_volume({24, 24, 24}, f, world);

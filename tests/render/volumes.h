@@ -26,6 +26,18 @@ inline Volume bcc_volume(const Extents& n, const std::function<double(const glm:
   return volume;
 }
 
+inline Volume cartesian_volume(const Extents& n, const std::function<double(const glm::dvec3&)>& f, const World& world = {}) {
+  Volume volume;
+  volume.extents = n;
+  volume.world = world;
+  std::vector<float> samples;
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i) samples.push_back(float(f(glm::dvec3(i, j, k))));
+  volume.samples = std::move(samples);
+  return volume;
+}
+
 /// Independent samples, uniform in [0, 1].
 inline Volume random_volume(const Extents& n, unsigned seed, const World& world = {}) {
   std::mt19937 random(seed);

@@ -23,15 +23,7 @@ namespace {
 std::shared_ptr<gpu::Device> test_device() { return {test_kernels(), &test_kernels()->device()}; }
 
 Volume volume_of(LatticeKind lattice, const Extents& n, const std::function<double(const glm::dvec3&)>& f, const World& world = {}) {
-  Volume volume = bcc_volume(n, f, world);
-  if (lattice == LatticeKind::bcc) return volume;
-  volume.lattice = lattice;
-  std::vector<float> samples;
-  for (int k = 0; k < n.z; ++k)
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) samples.push_back(float(f(glm::dvec3(i, j, k))));
-  volume.samples = std::move(samples);
-  return volume;
+  return lattice == LatticeKind::bcc ? bcc_volume(n, f, world) : cartesian_volume(n, f, world);
 }
 
 /// A scene of the volume alone, nothing of which ends a ray early.
