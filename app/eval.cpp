@@ -17,17 +17,16 @@
 #include "app/points_file.h"
 #include "app/spline_flags.h"
 #include "app/volume_input.h"
+#include "render/precision.h"
 #include "spline/spline.h"
 
 namespace quincunx {
 namespace {
 
-enum class Precision { exact_double, single_float };
-
 struct EvalFlags {
   std::string volume, points;
   std::string spline;  ///< empty: that of the volume's lattice
-  Precision precision = Precision::exact_double;
+  Precision precision = Precision::float64;
   Spline::Prefilter prefilter = Spline::Prefilter::automatic;
   Storage storage = Storage::float32;
   NanPolicy nan;
@@ -45,7 +44,7 @@ class WorldSpline {
         inverse_axes_(glm::inverse(volume.world.axes)),
         far_(domain_max(volume.lattice, volume.extents)),
         voids_(make_finite(volume, *spline_, flags.nan)) {
-    const bool doubles = precision_ == Precision::exact_double, rounded = flags.storage != Storage::float32;
+    const bool doubles = precision_ == Precision::float64, rounded = flags.storage != Storage::float32;
     if (doubles && !rounded) {
       coefficients_ = spline_->coefficients(volume, flags.prefilter, progress);
     } else {
@@ -63,8 +62,8 @@ class WorldSpline {
     const double slack = 1e-12 * std::max({1.0, far_.x, far_.y, far_.z});
     if (!glm::all(glm::lessThanEqual(glm::abs(u - inside), glm::dvec3(slack)))) return {nan, glm::dvec3(nan)};
     if (voids_.at(cell_of(inside, glm::i64vec3(far_)))) return {nan, glm::dvec3(nan)};
-    const Jet jet = precision_ == Precision::exact_double ? spline_->evaluate(coefficients_, inside)
-                                                          : evaluate_float(*spline_, float_coefficients_, inside);
+    const Jet jet = precision_ == Precision::float64 ? spline_->evaluate(coefficients_, inside)
+                                                     : evaluate_float(*spline_, float_coefficients_, inside);
     return {jet.value, glm::transpose(inverse_axes_) * jet.gradient};
   }
 
@@ -142,7 +141,7 @@ Command eval_command(CLI::App& program) {
       ->type_name("P.csv")
       ->required();
   add_choice(*app, "--precision", flags->precision,
-             {{"double", Precision::exact_double}, {"float", Precision::single_float}}, "Of coefficients and sums");
+             {{"double", Precision::float64}, {"float", Precision::float32}}, "Of coefficients and sums");
   add_spline(*app, flags->spline);
   add_prefilter(*app, flags->prefilter);
   add_storage(*app, flags->storage);

@@ -105,6 +105,17 @@ void check_choice(std::string_view text, std::string_view flag, const std::vecto
   throw InputError(fmt::format("{}: found {}, expected one of {}", flag, in_quotes(text), fmt::join(choices, ", ")));
 }
 
+std::vector<std::string> parse_choices(std::string_view text, std::string_view flag, const std::vector<std::string>& choices) {
+  std::vector<std::string> names;
+  for (const std::string_view name : split_list(text)) {
+    check_choice(name, flag, choices);
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw InputError(fmt::format("{}: found {} twice, expected different ones", flag, name));
+    names.emplace_back(name);
+  }
+  return names;
+}
+
 std::string choices_text(const std::vector<std::string>& choices) {
   return fmt::format("{{{}}}", fmt::join(choices, ","));
 }

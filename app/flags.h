@@ -57,6 +57,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& flag, Enum& value,
 /// Throws InputError naming the flag and the choices unless `text` is one of them.
 void check_choice(std::string_view text, std::string_view flag, const std::vector<std::string>& choices);
 
+/// The parts of a list "a,b,..", each one of `choices` and no two alike. Throws InputError naming the flag.
+std::vector<std::string> parse_choices(std::string_view text, std::string_view flag, const std::vector<std::string>& choices);
+
 /// --quiet.
 void add_quiet(CLI::App& app, Verbosity& verbosity);
 

@@ -9,6 +9,7 @@
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/values.h"
+#include "app/vector_json.h"
 #include "io/volume_file.h"
 #include "spline/spline.h"
 
@@ -52,8 +53,6 @@ std::uint64_t coefficient_bytes(const Volume& volume) {
   return coefficient_count(volume.lattice, volume.extents, make_spline("", volume.lattice)->apron()) * sizeof(float);
 }
 
-Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 Json describe(const InfoFlags& flags, const Volume& volume) {
   const SampleRange range = sample_range(volume);
   const Box box = world_box(volume);
@@ -66,10 +65,10 @@ Json describe(const InfoFlags& flags, const Volume& volume) {
             {"samples", volume.sample_count()},
             {"type", sample_type_name(volume.type())},
             {"domain", {far.x, far.y, far.z}},
-            {"spacing", to_json(grid_spacing(volume))},
-            {"origin", to_json(volume.world.origin)},
-            {"axes", {to_json(e[0]), to_json(e[1]), to_json(e[2])}},
-            {"world_box", {{"min", to_json(box.low)}, {"max", to_json(box.high)}}},
+            {"spacing", vector_json(grid_spacing(volume))},
+            {"origin", vector_json(volume.world.origin)},
+            {"axes", {vector_json(e[0]), vector_json(e[1]), vector_json(e[2])}},
+            {"world_box", {{"min", vector_json(box.low)}, {"max", vector_json(box.high)}}},
             {"range", {range.min, range.max}},
             {"not_finite", range.not_finite}};
   const std::vector<double> quantiles = sample_quantiles(volume, quantile_fractions);

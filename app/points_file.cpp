@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kLongestLine = 4096;  // bytes
 constexpr std::string_view blanks = " \t\r";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
@@ -47,7 +47,7 @@ std::optional<glm::dvec3> PointsFile::next() {
     ++number_;
     std::string_view line(text.data(), std::size_t(file_.gcount()) - (file_.eof() ? 0 : 1));
     if (number_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
-    line = trimmed(line);
+    line = without_blanks(line);
     if (line.empty() || (number_ == 1 && read_header(line))) continue;
     return parse(line);
   }
@@ -87,8 +87,8 @@ glm::dvec3 PointsFile::parse(std::string_view line) {
   const std::string place = fmt::format("{}:{}", path_, number_);
   const std::vector<std::string_view> fields = split_list(line);
   if (fields.size() != 3 + columns_.size()) throw InputError(fmt::format("{}: found {}, expected {}", place, in_quotes(line), expected()));
-  for (std::size_t n = 0; n < columns_.size(); ++n) values_[columns_[n]] = parse_number(trimmed(fields[3 + n]), place);
-  return {parse_number(trimmed(fields[0]), place), parse_number(trimmed(fields[1]), place), parse_number(trimmed(fields[2]), place)};
+  for (std::size_t n = 0; n < columns_.size(); ++n) values_[columns_[n]] = parse_number(without_blanks(fields[3 + n]), place);
+  return {parse_number(without_blanks(fields[0]), place), parse_number(without_blanks(fields[1]), place), parse_number(without_blanks(fields[2]), place)};
 }
 
 }  // namespace quincunx

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/skip_flags.h"
+#include "app/vector_json.h"
 
 namespace quincunx {
 namespace {
@@ -18,8 +19,6 @@ struct Plane {
   std::vector<std::string> channels;
   std::span<const float> values;  ///< interleaved; empty where the frame has none
 };
-
-Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 }  // namespace
 
@@ -70,9 +69,9 @@ double percentile(std::vector<double> values, double fraction) {
 // Keys that pictures of splines and of voxels have.
 
 void add_camera(const Scene& scene, Json& json) {
-  json["camera"] = {{"eye", to_json(scene.camera.eye)},
-                    {"target", to_json(scene.camera.target)},
-                    {"up", to_json(scene.camera.up)},
+  json["camera"] = {{"eye", vector_json(scene.camera.eye)},
+                    {"target", vector_json(scene.camera.target)},
+                    {"up", vector_json(scene.camera.up)},
                     {"fov", scene.camera.fov}};
 }
 void add_trace(const RenderStats& stats, Json& json) {

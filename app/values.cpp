@@ -60,6 +60,12 @@ std::int64_t parse_integer(std::string_view text, std::string_view flag, std::in
   return *value;
 }
 
+std::vector<int> parse_integers(std::string_view text, std::string_view flag, int low, int high) {
+  std::vector<int> values;
+  for (const std::string_view part : split_list(text)) values.push_back(int(parse_integer(part, flag, low, high)));
+  return values;
+}
+
 glm::dvec3 parse_color(std::string_view text, std::string_view flag) {
   const auto refuse = [&] {
     return InputError(fmt::format("{}: found {}, expected r,g,b with each from 0 to 1, or #rrggbb", flag, in_quotes(text)));

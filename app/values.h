@@ -21,6 +21,9 @@ std::vector<double> parse_numbers(std::string_view text, std::string_view flag);
 /// The integer that is all of `text`, low <= it <= high. Throws InputError naming `flag`.
 std::int64_t parse_integer(std::string_view text, std::string_view flag, std::int64_t low, std::int64_t high);
 
+/// Integers separated by commas, at least one, each low <= it <= high. Throws InputError naming `flag`.
+std::vector<int> parse_integers(std::string_view text, std::string_view flag, int low, int high);
+
 /// "r,g,b" (linear, each 0..1) or "#rrggbb" (sRGB) as linear RGB. Throws InputError naming `flag`.
 glm::dvec3 parse_color(std::string_view text, std::string_view flag);
 

@@ -16,7 +16,7 @@ namespace quincunx {
 namespace {
 
 using Vec = glm::dvec3;
-constexpr double kDegrees = 180.0 / glm::pi<double>();
+constexpr double kDegreesPerRadian = 180.0 / glm::pi<double>();
 
 const Vec kMiddle(15.5);
 const Vec kTilted = glm::normalize(Vec(0.36, 0.48, 0.8));
@@ -42,7 +42,7 @@ Camera look(const Vec& eye, const Vec& target, double fov) {
   return {eye, target, d.z <= d.x && d.z <= d.y ? Vec(0, 0, 1) : d.y <= d.x ? Vec(0, 1, 0) : Vec(1, 0, 0), fov};
 }
 /// A picture `height` high at `target`.
-double fov_of(double height, double distance) { return 2.0 * std::atan(0.5 * height / distance) * kDegrees; }
+double fov_of(double height, double distance) { return 2.0 * std::atan(0.5 * height / distance) * kDegreesPerRadian; }
 
 StabilityCase make(std::string name, std::function<double(const Vec&)> field, double isovalue) {
   StabilityCase c;

@@ -28,12 +28,6 @@ struct ClusterFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<int> parse_sizes(const std::string& text) {
-  std::vector<int> sizes;
-  for (const std::string_view part : split_list(text)) sizes.push_back(int(parse_integer(part, "--sizes", 1, 512)));
-  return sizes;
-}
-
 void check(const ClusterFlags& flags) {
   const std::size_t found = flags.isovalues.size(), volumes = flags.volumes.size();
   if (volumes == 0 && found > 0) throw InputError("--iso: found no volume, expected one that it is of");
@@ -99,7 +93,7 @@ Command cluster_command(CLI::App& program) {
   add_blocks(*app, "--blocks", flags->blocks);
   app->add_flag("--generated", flags->generated, "Generated blocks too; alone where there is no volume");
   add_parsed(
-      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_sizes(text); }, "N[,N...]", "64,256",
+      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_integers(text, "--sizes", 1, 512); }, "N[,N...]", "64,256",
       "Edges of the generated masks in blocks");
   add_integer(*app, "--max-cluster", flags->max_cluster, 1, 256, "Largest edge of a cube in blocks");
   add_integer(*app, "--repeat", flags->rounds, 1, 100000, "Rounds");

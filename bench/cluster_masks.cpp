@@ -93,11 +93,11 @@ void noise(Painter& painter) {
   painter.fill_all([&](const dvec3&) { return random.uniform(0.0, 1.0) < 0.1; });
 }
 
-struct Generator {
+struct MaskGenerator {
   std::string_view name;
   void (*paint)(Painter&);
 };
-constexpr Generator generators[] = {
+constexpr MaskGenerator mask_generators[] = {
     {"strands", strands}, {"solid parts", solid_parts}, {"vessels", vessels}, {"gyroid", gyroid}, {"noise", noise}};
 
 }  // namespace
@@ -105,7 +105,7 @@ constexpr Generator generators[] = {
 const std::vector<std::string_view>& mask_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
-    for (const Generator& generator : generators) list.push_back(generator.name);
+    for (const MaskGenerator& generator : mask_generators) list.push_back(generator.name);
     return list;
   }();
   return names;
@@ -113,7 +113,7 @@ const std::vector<std::string_view>& mask_names() {
 
 Classification generated_mask(std::string_view name, int edge) {
   assert(edge >= 1);
-  for (const Generator& generator : generators) {
+  for (const MaskGenerator& generator : mask_generators) {
     if (generator.name != name) continue;
     Painter painter(edge);
     generator.paint(painter);

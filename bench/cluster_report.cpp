@@ -11,13 +11,11 @@ using Json = nlohmann::ordered_json;
 
 std::string median_text(const std::vector<double>& values) { return three_digits(spread(values).median); }
 
-Json to_json(const Spread& spread) { return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}}; }
-
 Json to_json(const ClusterLine& line, const ClusterCost& cost) {
   return {{"leaves", cost.leaves},
           {"leaves_per_active", line.part(cost)},
-          {"cluster_ms", to_json(spread(cost.cluster_ms))},
-          {"build_ms", to_json(spread(cost.build_ms))}};
+          {"cluster_ms", spread_json(spread(cost.cluster_ms))},
+          {"build_ms", spread_json(spread(cost.build_ms))}};
 }
 
 }  // namespace
@@ -64,7 +62,7 @@ Json cluster_json(const ClusterReport& report) {
                              {"single", to_json(line, line.single)},
                              {"cubes", to_json(line, line.cubes)},
                              {"boxes", to_json(line, line.boxes)},
-                             {"speedup", to_json(spread(line.speedups()))}});
+                             {"speedup", spread_json(spread(line.speedups()))}});
   return json;
 }
 

@@ -14,17 +14,9 @@ namespace quincunx {
 namespace {
 
 /// Colours that colour-blind eyes tell apart (M. Okabe, K. Ito), and two more.
-constexpr std::array<const char*, 10> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f5a3c", "#808080", "#000000", "#9467bd"};
+constexpr std::array<const char*, 10> kSplineColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f5a3c", "#808080", "#000000", "#9467bd"};
 /// Exact a disc; marches by the order of their steps.
-constexpr std::array<int, 5> kShapes{7, 8, 10, 4, 12};
-
-/// The number of `what` in `all`, to whose end it is added where it is not there.
-std::size_t place(std::vector<std::string>& all, const std::string& what) {
-  const auto found = std::find(all.begin(), all.end(), what);
-  if (found != all.end()) return std::size_t(found - all.begin());
-  all.push_back(what);
-  return all.size() - 1;
-}
+constexpr std::array<int, 5> kMethodShapes{7, 8, 10, 4, 12};
 
 /// Errors that are shown: those of 0 as `least`.
 struct ErrorScale {
@@ -51,7 +43,7 @@ std::string axis(char name, double least, double largest) {
 }
 
 /// Points of one look.
-struct Group {
+struct PointGroup {
   std::string spline, method, points;
 };
 
@@ -63,11 +55,11 @@ std::string compare_plot_script(const CompareReport& report) {
   const auto point = [&](const CompareLine& line) { return fmt::format("{} {}\n", median_ms(line), std::max(report.metric->value(line).value(), scale.least)); };
 
   std::vector<std::string> splines, methods{"exact"};
-  std::vector<Group> groups;
+  std::vector<PointGroup> groups;
   for (const CompareLine& line : lines) {
     const std::string spline = line.setting.spline + (report.subject->volumes[line.setting.volume].name.ends_with("sparse") ? " sparse" : "");
-    place(splines, spline), place(methods, line.setting.method());
-    const auto same = [&](const Group& g) { return g.spline == spline && g.method == line.setting.method(); };
+    place_of(splines, spline), place_of(methods, line.setting.method());
+    const auto same = [&](const PointGroup& g) { return g.spline == spline && g.method == line.setting.method(); };
     auto group = std::find_if(groups.begin(), groups.end(), same);
     if (group == groups.end()) group = groups.insert(groups.end(), {spline, line.setting.method(), ""});
     group->points += point(line);
@@ -86,11 +78,11 @@ std::string compare_plot_script(const CompareReport& report) {
   for (const std::size_t n : pareto_front(lines, *report.metric)) data += point(lines[n]);
   data += "EOD\n";
   std::vector<std::string> plots{"$front with lines lw 2 dt 2 lc rgb '#606060' title 'Pareto front'"};
-  for (const Group& group : groups) {
+  for (const PointGroup& group : groups) {
     const std::string name = fmt::format("$data{}", plots.size());
     data += fmt::format("{} << EOD\n{}EOD\n", name, group.points);
-    plots.push_back(fmt::format("{} with points pt {} ps 1.1 lw 1.6 lc rgb '{}' title {}", name, kShapes[place(methods, group.method) % kShapes.size()],
-                                kColors[place(splines, group.spline) % kColors.size()], gnuplot_string(group.spline + ", " + group.method)));
+    plots.push_back(fmt::format("{} with points pt {} ps 1.1 lw 1.6 lc rgb '{}' title {}", name, kMethodShapes[place_of(methods, group.method) % kMethodShapes.size()],
+                                kSplineColors[place_of(splines, group.spline) % kSplineColors.size()], gnuplot_string(group.spline + ", " + group.method)));
   }
   return text + data + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
 }

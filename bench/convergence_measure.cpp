@@ -10,7 +10,7 @@ namespace quincunx {
 namespace {
 
 /// World units from the faces of the cube: on the coarsest grid far enough that the border changes nothing but a 2000th of an interpolation's part there.
-constexpr double kBorder = 0.5;
+constexpr double kOuterCells = 0.5;
 
 /// Volume number 0 of a field_subject is Cartesian, number 1 BCC.
 std::size_t volume_of(const Spline& spline) { return spline.lattice() == LatticeKind::cartesian ? 0 : 1; }
@@ -39,7 +39,7 @@ std::vector<ConvergenceLine> measure_convergence(const ConvergencePlan& plan, co
   double done = 0.0;
   for (const int samples : plan.samples) {
     CompareSubject subject = field_subject(make_field(plan.field), samples, {Density::equal});
-    subject.border = kBorder / subject.cell;
+    subject.border = kOuterCells / subject.cell;
     for (ConvergenceLine& line : lines) {
       report(progress, done++ / all);
       const auto spline = make_spline(line.spline);

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -63,6 +64,13 @@ std::string gnuplot_string(const std::string& text) {
     result += static_cast<unsigned char>(c) < ' ' ? '?' : c;
   }
   return result + "'";
+}
+
+std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return std::size_t(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
 }
 
 std::string gnuplot_marks(double low, double high) {

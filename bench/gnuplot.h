@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace quincunx {
 
 /// `text` as a string of gnuplot's, in single quotes: nothing but the quote itself has a meaning there.
 std::string gnuplot_string(const std::string& text);
+
+/// The number of `name` in `names`, to whose end it is added where it is not there: series in the order in which they are seen.
+std::size_t place_of(std::vector<std::string>& names, const std::string& name);
 
 /// Marks of a logarithmic axis, as `set xtics (..)` has them: 1, 2, 5, 10, .. and more of them where it spans little.
 std::string gnuplot_marks(double low, double high);

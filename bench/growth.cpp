@@ -30,24 +30,10 @@ struct GrowthFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<std::string> parse_fields(const std::string& text) {
-  const std::vector<std::string> choices(field_names().begin(), field_names().end());
-  std::vector<std::string> fields;
-  for (const std::string_view field : split_list(text)) {
-    check_choice(field, "--fields", choices);
-    fields.emplace_back(field);
-  }
-  return fields;
-}
-
-std::vector<int> parse_sizes(const std::string& text) {
-  std::vector<int> sizes;
-  for (const std::string_view part : split_list(text)) {
-    const int size = int(parse_integer(part, "--sizes", 2, 1024));
-    if (!sizes.empty() && size <= sizes.back())
-      throw InputError(fmt::format("--sizes: found {} after {}, expected ascending ones", size, sizes.back()));
-    sizes.push_back(size);
-  }
+std::vector<int> parse_ascending_sizes(const std::string& text) {
+  const std::vector<int> sizes = parse_integers(text, "--sizes", 2, 1024);
+  for (std::size_t n = 1; n < sizes.size(); ++n)
+    if (sizes[n] <= sizes[n - 1]) throw InputError(fmt::format("--sizes: found {} after {}, expected ascending ones", sizes[n], sizes[n - 1]));
   return sizes;
 }
 
@@ -123,10 +109,10 @@ Command growth_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("growth", "How frame times grow with the volume, for every way to skip");
   app->footer("Samples each field on BCC lattices of growing size, so that the object stays, and renders it from one view.");
   add_parsed(
-      *app, "--fields", [flags](const std::string& text) { flags->fields = parse_fields(text); }, "F[,F...]",
+      *app, "--fields", [flags](const std::string& text) { flags->fields = parse_choices(text, "--fields", {field_names().begin(), field_names().end()}); }, "F[,F...]",
       "marschner-lobb,gyroid", "Objects, those of `quincunx sample`, at their isovalues");
   add_parsed(
-      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_sizes(text); }, "N[,N...]", "64,128,256",
+      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_ascending_sizes(text); }, "N[,N...]", "64,128,256",
       "Samples per axis of each coset, ascending");
   add_structures(*app, flags->choices.labels);
   add_blocks(*app, "--block", flags->choices.blocks);

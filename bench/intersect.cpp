@@ -29,7 +29,7 @@ struct IntersectFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<double> parse_steps(const std::string& text) {
+std::vector<double> parse_different_steps(const std::string& text) {
   const std::vector<double> steps = parse_numbers(text, "--steps");
   std::set<double> seen;
   for (const double step : steps) {
@@ -149,7 +149,7 @@ Command intersect_command(CLI::App& program) {
   add_integer(*app, "--repeat", flags->rounds, 1, 100000,
               "Timed frames of each setting and view, after an untimed one");
   add_parsed(
-      *app, "--steps", [flags](const std::string& text) { flags->steps = parse_steps(text); }, "S[,S...]",
+      *app, "--steps", [flags](const std::string& text) { flags->steps = parse_different_steps(text); }, "S[,S...]",
       "0.5,0.25,0.125", "Of march, in cells; 0.25 with none is measured in any case");
   add_block(*app, flags->block);
   add_device(*app, flags->device);

@@ -16,8 +16,6 @@ double evaluations_per_ray(const Cost& cost) { return double(cost.evaluations) /
 /// Two significant digits: "3.1e-05".
 std::string small(double x) { return x == 0.0 ? "0" : fmt::format("{:.1e}", x); }
 
-Json to_json(const Spread& spread) { return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}}; }
-
 Json to_json(const HitErrors& errors) {
   return {{"missed", errors.missed},
           {"false", errors.false_hits},
@@ -99,8 +97,8 @@ Json intersect_json(const IntersectReport& report) {
     Json entry{{"intersect", setting.intersect == Intersect::exact ? "exact" : "march"}};
     if (setting.intersect == Intersect::march) entry["step"] = setting.step;
     entry["structure"] = setting.structure;
-    entry["trace_ms"] = to_json(spread(cost.frame_ms));
-    entry["speedup"] = to_json(speedup(cost, report.baseline()));
+    entry["trace_ms"] = spread_json(spread(cost.frame_ms));
+    entry["speedup"] = spread_json(speedup(cost, report.baseline()));
     entry["evaluations_per_ray"] = evaluations_per_ray(cost);
     entry["hits"] = cost.hits;
     if (!report.errors.empty()) entry["error"] = to_json(report.errors[s]);

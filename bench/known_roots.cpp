@@ -37,22 +37,22 @@ std::vector<double> product_of(const Roots& roots) {
   return b;
 }
 
-Roots spread(std::mt19937_64& random, int degree) {
+Roots spread_roots(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> uniform(-1.0, 2.0);
   Roots roots(static_cast<std::size_t>(degree));
   for (double& r : roots) r = uniform(random);
   return roots;
 }
 /// Near the first root one or two more.
-Roots close(std::mt19937_64& random, int degree) {
+Roots close_roots(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  Roots roots = spread(random, degree);
+  Roots roots = spread_roots(random, degree);
   roots[0] = uniform(random);
   const int more = degree > 2 && uniform(random) < 0.5 ? 2 : 1;
   for (int n = 1; n <= more; ++n) roots[std::size_t(n)] = roots[0] + std::pow(10.0, -6.0 + 5.0 * uniform(random));
   return roots;
 }
-Roots cluster(std::mt19937_64& random, int degree) {
+Roots clustered_roots(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const double middle = uniform(random), width = std::pow(10.0, -6.0 + 6.0 * uniform(random));
   Roots roots(static_cast<std::size_t>(degree));
@@ -64,7 +64,7 @@ struct Kind {
   const char* name;
   Roots (*roots)(std::mt19937_64& random, int degree);
 };
-constexpr Kind kKinds[] = {{"roots spread out", spread}, {"pairs and triples", close}, {"all in one cluster", cluster}};
+constexpr Kind kKinds[] = {{"roots spread out", spread_roots}, {"pairs and triples", close_roots}, {"all in one cluster", clustered_roots}};
 
 double value_at(std::span<const double> b, double x, double& slope) {
   std::vector<double> c(b.begin(), b.end());

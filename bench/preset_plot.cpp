@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Colours that colour-blind eyes tell apart (M. Okabe, K. Ito).
-constexpr std::array<const char*, 12> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f5a3c", "#808080", "#000000", "#882255", "#44aa99", "#999933"};
-constexpr std::array<int, 8> kShapes{7, 5, 9, 11, 13, 6, 4, 8};
+constexpr std::array<const char*, 12> kSeriesColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f5a3c", "#808080", "#000000", "#882255", "#44aa99", "#999933"};
+constexpr std::array<int, 8> kSeriesShapes{7, 5, 9, 11, 13, 6, 4, 8};
 
 /// Rows that a panel shows: what it is drawn of is there.
 std::vector<const std::vector<Json>*> shown_rows(const PresetReport& report, const PresetPanel& panel) {
@@ -29,13 +29,6 @@ std::vector<const std::vector<Json>*> shown_rows(const PresetReport& report, con
   return rows;
 }
 
-std::size_t place(std::vector<std::string>& words, const std::string& word) {
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return std::size_t(found - words.begin());
-  words.push_back(word);
-  return words.size() - 1;
-}
-
 /// One panel: axes, then data blocks whose names begin with `prefix`, then the plot.
 std::string panel_script(const PresetReport& report, const PresetPanel& panel, const std::string& prefix) {
   const auto rows = shown_rows(report, panel);
@@ -44,15 +37,15 @@ std::string panel_script(const PresetReport& report, const PresetPanel& panel, c
   const bool bars = (*rows.front())[x].is_string(), whiskers = !panel.low.empty();
   std::vector<std::string> groups, series;
   for (const auto* row : rows) {
-    place(series, (*row)[s].get<std::string>());
-    if (bars) place(groups, (*row)[x].get<std::string>());
+    place_of(series, (*row)[s].get<std::string>());
+    if (bars) place_of(groups, (*row)[x].get<std::string>());
   }
   const double width = 0.85 / double(series.size());
   std::vector<std::string> points(series.size());
   for (const auto* row : rows) {
-    const std::size_t n = place(series, (*row)[s].get<std::string>());
+    const std::size_t n = place_of(series, (*row)[s].get<std::string>());
     const double value = (*row)[y].get<double>();
-    const double at = bars ? double(place(groups, (*row)[x].get<std::string>())) + (double(n) - 0.5 * double(series.size() - 1)) * width : (*row)[x].get<double>();
+    const double at = bars ? double(place_of(groups, (*row)[x].get<std::string>())) + (double(n) - 0.5 * double(series.size() - 1)) * width : (*row)[x].get<double>();
     points[n] += fmt::format("{} {} {} {}\n", at, value, whiskers ? (*row)[report.column(panel.low)].get<double>() : value,
                              whiskers ? (*row)[report.column(panel.high)].get<double>() : value);
   }
@@ -68,14 +61,14 @@ std::string panel_script(const PresetReport& report, const PresetPanel& panel, c
   }
   std::vector<std::string> everywhere;  // a series looks the same in every panel
   for (const auto& row : report.rows)
-    if (row[s].is_string()) place(everywhere, row[s].get<std::string>());
+    if (row[s].is_string()) place_of(everywhere, row[s].get<std::string>());
   std::vector<std::string> plots;
   for (std::size_t n = 0; n < series.size(); ++n) {
     text += fmt::format("${}{} << EOD\n{}EOD\n", prefix, n, points[n]);
-    const std::size_t look = place(everywhere, series[n]);
-    const char* color = kColors[look % kColors.size()];
+    const std::size_t look = place_of(everywhere, series[n]);
+    const char* color = kSeriesColors[look % kSeriesColors.size()];
     plots.push_back(bars ? fmt::format("${}{} using 1:2 with boxes lc rgb '{}' title {}", prefix, n, color, gnuplot_string(series[n]))
-                         : fmt::format("${}{} using 1:2 with linespoints lw 2 pt {} ps 0.8 lc rgb '{}' title {}", prefix, n, kShapes[look % kShapes.size()], color, gnuplot_string(series[n])));
+                         : fmt::format("${}{} using 1:2 with linespoints lw 2 pt {} ps 0.8 lc rgb '{}' title {}", prefix, n, kSeriesShapes[look % kSeriesShapes.size()], color, gnuplot_string(series[n])));
     if (whiskers) plots.push_back(fmt::format("${}{} using 1:2:3:4 with yerrorbars ps 0 lc rgb '#303030' notitle", prefix, n));
   }
   return text + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));

@@ -16,7 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kThreshold = 128.0, kSlope = 32.0;  ///< values per cell of distance
+constexpr double kThreshold = 128.0, kValueSlope = 32.0;  ///< values per cell of distance
 constexpr double kSoft = 4.0;                        ///< cells about a surface within which values differ: more is 0 or 255
 constexpr int kBlock = 4;                            ///< cells: of the blocks whose active part is told
 
@@ -65,7 +65,7 @@ class Splatter {
     const double least = std::min({radii.x, radii.y, radii.z});
     const dvec3 reach = radii * (1.0 + kSoft / least);
     change(middle - reach, middle + reach, [&](const dvec3& u, double before) {
-      return std::max(before, kThreshold + kSlope * least * (1.0 - glm::length((u - middle) / radii)));
+      return std::max(before, kThreshold + kValueSlope * least * (1.0 - glm::length((u - middle) / radii)));
     });
   }
   /// Adds a point's mass, `most` at itself, none 2 cells away.
@@ -153,18 +153,18 @@ void waves(Splatter& splatter, const Progress&) {
   });
 }
 
-struct Generator {
+struct VolumeGenerator {
   std::string_view name;
   void (*draw)(Splatter&, const Progress&);
 };
-constexpr Generator generators[] = {{"strands", strands}, {"solid parts", solid_parts}, {"vessels", vessels}, {"points", points}, {"waves", waves}};
+constexpr VolumeGenerator volume_generators[] = {{"strands", strands}, {"solid parts", solid_parts}, {"vessels", vessels}, {"points", points}, {"waves", waves}};
 
 }  // namespace
 
 const std::vector<std::string_view>& preset_volume_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
-    for (const Generator& generator : generators) list.push_back(generator.name);
+    for (const VolumeGenerator& generator : volume_generators) list.push_back(generator.name);
     return list;
   }();
   return names;
@@ -172,7 +172,7 @@ const std::vector<std::string_view>& preset_volume_names() {
 
 PresetVolume generated_volume(std::string_view name, LatticeKind lattice, int cells, const Progress& progress) {
   assert(cells >= 8);
-  for (const Generator& generator : generators) {
+  for (const VolumeGenerator& generator : volume_generators) {
     if (generator.name != name) continue;
     Splatter splatter(lattice, cells);
     generator.draw(splatter, progress);

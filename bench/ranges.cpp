@@ -20,12 +20,6 @@ struct RangesFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<int> parse_entries(const std::string& text) {
-  std::vector<int> entries;
-  for (const std::string_view part : split_list(text)) entries.push_back(int(parse_integer(part, "--entries", 2, 16384)));
-  return entries;
-}
-
 void ranges(const RangesFlags& flags) {
   if (!flags.json.empty()) check_writable(flags.json);
   ProgressBar bar(flags.verbosity);
@@ -50,7 +44,7 @@ Command ranges_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("ranges", "Ways to ask whether an interval of values meets one with opacity");
   app->footer("Compares counts of runs with the full table and the iterative range tree of I. Wald (2019) on a made-up transfer function.");
   add_parsed(
-      *app, "--entries", [flags](const std::string& text) { flags->entries = parse_entries(text); }, "N[,N...]",
+      *app, "--entries", [flags](const std::string& text) { flags->entries = parse_integers(text, "--entries", 2, 16384); }, "N[,N...]",
       "256,512,1024,2048,4096,8192", "Entries of the transfer function's table");
   add_integer(*app, "--queries", flags->queries, 1, 100000000, "Intervals that are asked for in each round");
   add_integer(*app, "--repeat", flags->rounds, 1, 100000, "Rounds");

@@ -9,8 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Spread& spread) { return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}}; }
-
 }  // namespace
 
 Table ranges_table(const RangesReport& report) {
@@ -44,9 +42,9 @@ Json ranges_json(const RangesReport& report) {
     Json row{{"entries", line.entries}, {"visible", line.visible}, {"queries", line.queries}, {"met", line.met}};
     for (std::size_t n = 0; n < line.costs.size(); ++n)
       row[std::string(range_query_name(kRangeQueryKinds[n]))] = {{"bytes", line.costs[n].bytes},
-                                                                 {"build_ms", to_json(spread(line.costs[n].build_ms))},
-                                                                 {"query_ms_per_million", to_json(spread(line.costs[n].query_ms))},
-                                                                 {"grid_ms", to_json(spread(line.costs[n].grid_ms))}};
+                                                                 {"build_ms", spread_json(spread(line.costs[n].build_ms))},
+                                                                 {"query_ms_per_million", spread_json(spread(line.costs[n].query_ms))},
+                                                                 {"grid_ms", spread_json(spread(line.costs[n].grid_ms))}};
     json["rows"].push_back(std::move(row));
   }
   return json;

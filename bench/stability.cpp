@@ -52,21 +52,11 @@ std::string StabilityFlags::command() const {
   return text + fmt::format(" --step {} --points {} --polynomials {} --rays {:.0f} --seed {}", step, points, polynomials, rays, seed);
 }
 
-std::vector<std::string> parse_names(const std::string& text, std::string_view flag, const std::vector<std::string>& choices) {
-  std::vector<std::string> names;
-  for (const std::string_view name : split_list(text)) {
-    check_choice(name, flag, choices);
-    if (std::find(names.begin(), names.end(), name) != names.end()) throw InputError(fmt::format("{}: found {} twice, expected different ones", flag, name));
-    names.emplace_back(name);
-  }
-  return names;
-}
-
-std::vector<std::string> parse_splines(const std::string& text, const std::vector<std::string>& choices) {
+std::vector<std::string> parse_polynomial_splines(const std::string& text, const std::vector<std::string>& choices) {
   for (const std::string_view name : split_list(text))
     if (std::ranges::find(spline_names(), name) != spline_names().end() && !make_spline(name)->polynomial())
       throw InputError(fmt::format("--splines: found {}, whose pieces are no polynomials and have no first roots on a device, expected some of {}", name, joined(choices)));
-  return parse_names(text, "--splines", choices);
+  return parse_choices(text, "--splines", choices);
 }
 
 StabilityPlan cases_plan(const StabilityFlags& flags) {
@@ -134,10 +124,10 @@ Command stability_command(CLI::App& program) {
       "Exit status 1 where anything fails.");
   const std::vector<std::string> groups = StabilityFlags::all_groups();
   add_parsed(
-      *app, "--groups", [flags, groups](const std::string& text) { flags->groups = parse_names(text, "--groups", groups); }, "G[,G...]", joined(groups), "Parts to run");
+      *app, "--groups", [flags, groups](const std::string& text) { flags->groups = parse_choices(text, "--groups", groups); }, "G[,G...]", joined(groups), "Parts to run");
   const std::vector<std::string> splines = flags->splines;
   add_parsed(
-      *app, "--splines", [flags, splines](const std::string& text) { flags->splines = parse_splines(text, splines); }, "S[,S...]", joined(splines), "Splines, each on its own lattice");
+      *app, "--splines", [flags, splines](const std::string& text) { flags->splines = parse_polynomial_splines(text, splines); }, "S[,S...]", joined(splines), "Splines, each on its own lattice");
   add_number(*app, "--step", flags->step, {1e-3, 1e3}, "Of the march beside, in cells");
   add_integer(*app, "--points", flags->points, 1, 1000000, "Random points of each case where values and gradients are compared");
   add_integer(*app, "--polynomials", flags->polynomials, 1, 1000000000, "Of each kind and degree");

@@ -16,7 +16,7 @@
 namespace quincunx {
 namespace {
 
-constexpr double kEpsilon = 0x1p-24;
+constexpr double kFloatEpsilon = 0x1p-24;
 constexpr double kDoubleEpsilon = 0x1p-48;  // of doubles, 2^-53, and of the reference's own rounding
 constexpr double kLeast = 1e-300;         // of m: all coefficients may be 0
 constexpr std::size_t kHugeWeight = 200;   // of the progress, in cases
@@ -61,7 +61,7 @@ EvaluationError evaluation_error(const Subject& subject, gpu::Device& device, co
     const glm::dvec3 u = glm::clamp(points[n], glm::dvec3(0.0), far);
     const Jet truth = subject.spline.evaluate(exact, u + 1e-9 * (glm::min(inside_piece(c, u), far) - u));
     const double m = std::max(local_magnitude(exact, u, 0.0), kLeast), own = kOwnRounding * m;
-    const auto off = [&](double found, double expected) { return std::max(std::abs(found - expected) - own, 0.0) / (kEpsilon * m); };
+    const auto off = [&](double found, double expected) { return std::max(std::abs(found - expected) - own, 0.0) / (kFloatEpsilon * m); };
     error.value = std::max(error.value, off(jets[n].value, truth.value));
     for (int a = 0; a < 3; ++a) error.gradient = std::max(error.gradient, off(jets[n].gradient[a], truth.gradient[a]));
   }
@@ -118,7 +118,7 @@ StabilityLine measure_case(const StabilityCase& c, const std::string& name, cons
   for (const Camera& camera : c.views(spline->lattice())) {
     Renderer::Request request = request_for(c, camera);
     const Judge judge(*spline, subject.coefficients, request.scene, subject.rounded.unit.plain() ? &bounds : nullptr, &voids);
-    const Judge::Config floats{.epsilon = kEpsilon, .offset = subject.rounded.unit.offset, .shift = 0.0, .cells = glm::i64vec3(0)};
+    const Judge::Config floats{.epsilon = kFloatEpsilon, .offset = subject.rounded.unit.offset, .shift = 0.0, .cells = glm::i64vec3(0)};
     RenderStats stats;
     line.exact += judge.judge(renderer.render(request, stats), floats);
     if (doubles) line.doubles += judge.judge(doubles->render(request, stats), {.epsilon = kDoubleEpsilon, .offset = floats.offset, .shift = shift, .cells = glm::i64vec3(0)});

@@ -21,7 +21,7 @@ struct StepsFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<double> parse_steps(const std::string& text) {
+std::vector<double> parse_descending_steps(const std::string& text) {
   std::vector<double> steps;
   for (const double step : parse_numbers(text, "--steps")) {
     if (!(step >= 1e-3 && step <= 1e3)) throw InputError(fmt::format("--steps: found {}, expected numbers from 0.001 to 1000", step));
@@ -29,16 +29,6 @@ std::vector<double> parse_steps(const std::string& text) {
     steps.push_back(step);
   }
   return steps;
-}
-
-std::vector<std::string> parse_splines(const std::string& text) {
-  const std::vector<std::string> choices(spline_names().begin(), spline_names().end());
-  std::vector<std::string> splines;
-  for (const std::string_view spline : split_list(text)) {
-    check_choice(spline, "--splines", choices);
-    splines.emplace_back(spline);
-  }
-  return splines;
 }
 
 void steps(const StepsFlags& flags) {
@@ -63,10 +53,10 @@ Command steps_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("steps", "Volume rendering against a closed form, by the length of steps");
   app->footer("Renders a ball whose opacity along every ray is known in closed form, by single samples (post) and pre-integrated stretches.");
   add_parsed(
-      *app, "--splines", [flags](const std::string& text) { flags->plan.splines = parse_splines(text); }, "S[,S...]",
+      *app, "--splines", [flags](const std::string& text) { flags->plan.splines = parse_choices(text, "--splines", {spline_names().begin(), spline_names().end()}); }, "S[,S...]",
       fmt::format("{}", fmt::join(flags->plan.splines, ",")), "Reconstructions");
   add_parsed(
-      *app, "--steps", [flags](const std::string& text) { flags->plan.steps = parse_steps(text); }, "X[,X...]",
+      *app, "--steps", [flags](const std::string& text) { flags->plan.steps = parse_descending_steps(text); }, "X[,X...]",
       fmt::format("{}", fmt::join(flags->plan.steps, ",")), "Lengths of a step in cells, descending");
   add_integer(*app, "--cells", flags->plan.cells, 8, 1024, "Cells along an axis");
   add_integer(*app, "--size", flags->plan.size, 1, 4096, "Pixels each way");

@@ -18,7 +18,7 @@ double distance_of(const Scene& scene, const CameraFrame& frame, int i, int j) {
   return glm::length(glm::cross(scene.camera.eye, along));
 }
 
-void compare(const Scene& scene, const Frame& frame, StepLine::Way& way) {
+void compare_alpha(const Scene& scene, const Frame& frame, StepLine::Way& way) {
   const CameraFrame camera = camera_frame(scene.camera, scene.width, scene.height);
   double squares = 0.0;
   std::size_t met = 0;
@@ -35,18 +35,18 @@ void compare(const Scene& scene, const Frame& frame, StepLine::Way& way) {
   way.rms = std::sqrt(squares / double(std::max<std::size_t>(met, 1)));
 }
 
-struct Subject {
+struct StepsSubject {
   std::unique_ptr<Renderer> renderer;
   Renderer::Request request;
 };
 
-Subject make_subject(const StepsPlan& plan, const std::string& spline) {
+StepsSubject make_subject(const StepsPlan& plan, const std::string& spline) {
   const LatticeKind lattice = make_spline(spline)->lattice();
   const Extents extents(lattice == LatticeKind::bcc ? plan.cells / 2 : plan.cells);
   const Volume volume = sample_field(*make_field("sphere"), lattice, extents);
   Renderer::Config config;
   config.spline = spline;
-  Subject subject{make_renderer(plan.device, volume, config), {}};
+  StepsSubject subject{make_renderer(plan.device, volume, config), {}};
   Scene& scene = subject.request.scene;
   scene.width = scene.height = plan.size;
   scene.camera = framing_camera(lattice, extents, volume.world, {30.0, 10.0, 1.0}, plan.size, plan.size);
@@ -78,7 +78,7 @@ std::vector<StepLine> measure_steps(const StepsPlan& plan, std::string& device, 
   const double all = double(plan.splines.size() * plan.steps.size()) * 2.0 * double(plan.rounds + 1);
   double done = 0.0;
   for (const std::string& spline : plan.splines) {
-    Subject subject = make_subject(plan, spline);
+    StepsSubject subject = make_subject(plan, spline);
     const std::size_t first = lines.size();
     for (const double step : plan.steps) lines.push_back({spline, step, {}, {}});
     for (int round = -1; round < plan.rounds; ++round) {  // the first one compiles, and is compared
@@ -90,7 +90,7 @@ std::vector<StepLine> measure_steps(const StepsPlan& plan, std::string& device, 
           const Frame frame = subject.renderer->render(subject.request, stats);
           device = stats.device;
           if (round >= 0) way->frame_ms.push_back(stats.trace_ms.front());
-          if (round < 0) compare(subject.request.scene, frame, *way);
+          if (round < 0) compare_alpha(subject.request.scene, frame, *way);
         }
       }
     }

@@ -22,14 +22,12 @@ struct Curve {
 };
 
 /// Colours that colour-blind eyes tell apart (M. Okabe, K. Ito), with a shape of their own, by the place in skip_labels().
-constexpr std::array<const char*, 12> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+constexpr std::array<const char*, 12> kLabelColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
                                               "#7f5a3c", "#808080", "#f0e442", "#000000", "#332288", "#aa1144"};
-constexpr std::array<int, 12> kShapes{7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 15, 14};
-
-double median_ms(const SweepReport& report, std::size_t n) { return percentile(report.measured[n].cost.frame_ms, 0.5); }
+constexpr std::array<int, 12> kLabelShapes{7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 15, 14};
 
 std::string point(const SweepReport& report, std::size_t n) {
-  return fmt::format("{} {}\n", report.settings[n].skip.block, median_ms(report, n));
+  return fmt::format("{} {}\n", report.settings[n].skip.block, report.median_ms(n));
 }
 
 std::vector<Curve> curves(const SweepReport& report) {
@@ -44,8 +42,8 @@ std::vector<Curve> curves(const SweepReport& report) {
       }
       if (curve.points.empty()) continue;
       curve.title = fmt::format("{}{}", labels[place], cell_test ? "" : ", no cell test");
-      const std::size_t look = (place + kColors.size() - 1) % kColors.size();  // none is the first label
-      curve.style = fmt::format("with linespoints lw 2 dt {} pt {} ps 0.8 lc rgb '{}'", cell_test ? 1 : 2, kShapes[look], kColors[look]);
+      const std::size_t look = (place + kLabelColors.size() - 1) % kLabelColors.size();  // none is the first label
+      curve.style = fmt::format("with linespoints lw 2 dt {} pt {} ps 0.8 lc rgb '{}'", cell_test ? 1 : 2, kLabelShapes[look], kLabelColors[look]);
       all.push_back(std::move(curve));
     }
   }
@@ -54,11 +52,11 @@ std::vector<Curve> curves(const SweepReport& report) {
 
 /// Title, axes, legend.
 std::string frame_of_the_drawing(const SweepReport& report, std::size_t curve_count) {
-  double low = median_ms(report, 0), high = low;
+  double low = report.median_ms(0), high = low;
   std::set<int> blocks;
   for (std::size_t n = 0; n < report.measured.size(); ++n) {
-    low = std::min(low, median_ms(report, n));
-    high = std::max(high, median_ms(report, n));
+    low = std::min(low, report.median_ms(n));
+    high = std::max(high, report.median_ms(n));
     if (report.settings[n].skips()) blocks.insert(report.settings[n].skip.block);
   }
   low = std::max(low / 1.25, 1e-6);
@@ -87,7 +85,7 @@ std::string sweep_plot_script(const SweepReport& report) {
   const std::vector<Curve> structures = curves(report);
   std::string text = frame_of_the_drawing(report, structures.size()), data;
   std::vector<std::string> plots{
-      fmt::format("{} with lines lw 2 dt 3 lc rgb '#000000' title 'none'", median_ms(report, 0))};
+      fmt::format("{} with lines lw 2 dt 3 lc rgb '#000000' title 'none'", report.median_ms(0))};
   const auto add = [&](const std::string& points, const std::string& style, const std::string& title) {
     const std::string name = fmt::format("$data{}", plots.size());
     data += fmt::format("{} << EOD\n{}EOD\n", name, points);

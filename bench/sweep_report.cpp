@@ -18,10 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double median_ms(const SweepReport& report, std::size_t setting) {
-  return percentile(report.measured[setting].cost.frame_ms, 0.5);
-}
-
 std::uint64_t device_bytes(const RenderStats& stats, std::string_view purpose) {
   for (const auto& [name, bytes] : stats.device_bytes)
     if (name == purpose) return bytes;
@@ -164,7 +160,7 @@ Json choice_json(const SweepReport& report) {
   return {{"structure", chosen->label()},
           {"block", chosen->skips() ? Json(chosen->skip.block) : Json()},
           {"cell_test", chosen->skip.cell_test},
-          {"times_best", known ? Json(median_ms(report, n) / median_ms(report, report.best())) : Json()}};
+          {"times_best", known ? Json(report.median_ms(n) / report.median_ms(report.best())) : Json()}};
 }
 
 /// Caption, tables and sentences, the tables as `text` writes them, each sentence ended by `end`.
@@ -176,11 +172,13 @@ std::string sweep_page(const SweepReport& report, std::string (*text)(const Tabl
 
 }  // namespace
 
+double SweepReport::median_ms(std::size_t setting) const { return percentile(measured[setting].cost.frame_ms, 0.5); }
+
 std::size_t SweepReport::best() const {
   assert(!measured.empty());
   std::size_t best = 0;
   for (std::size_t n = 1; n < measured.size(); ++n)
-    if (median_ms(*this, n) < median_ms(*this, best)) best = n;
+    if (median_ms(n) < median_ms(best)) best = n;
   return best;
 }
 
@@ -237,7 +235,7 @@ Table sweep_frame_table(const SweepReport& report) {
   for (const int block : blocks) table.headings.push_back(fmt::format("{}", block));
   table.headings.emplace_back("best speed-up");
 
-  const std::string none = marks(report, 0) + three_digits(median_ms(report, 0));
+  const std::string none = marks(report, 0) + three_digits(report.median_ms(0));
   for (const StructureRow& structure : structure_rows(report)) {
     std::vector<std::string> row{structure.label};
     if (tests) row.emplace_back(structure.cell_test ? "on" : "off");
@@ -250,7 +248,7 @@ Table sweep_frame_table(const SweepReport& report) {
         row.emplace_back("-");
         continue;
       }
-      row.push_back(marks(report, *here) + three_digits(median_ms(report, *here)));
+      row.push_back(marks(report, *here) + three_digits(report.median_ms(*here)));
       fastest = std::max(fastest, report.speedup_of(*here).median);
     }
     row.push_back(three_digits(fastest));
@@ -287,7 +285,7 @@ Table sweep_stage_table(const SweepReport& report) {
     row.push_back(three_digits(m.change_ms()));
     row.push_back(fmt::format("{}", device_bytes(scene, "structure")));
     row.push_back(three_digits(percentile(m.traversal_ms, 0.5)));
-    row.push_back(marks(report, n) + three_digits(median_ms(report, n)));
+    row.push_back(marks(report, n) + three_digits(report.median_ms(n)));
     row.push_back(three_digits(percentile(m.cost.frame_ms, 1.0)));
     row.push_back(three_digits(report.speedup_of(n).median));
     table.rows.push_back(std::move(row));
@@ -328,7 +326,7 @@ std::string sweep_choice(const SweepReport& report) {
   if (chosen->skips()) text += fmt::format(", blocks of {} cell{}", chosen->skip.block, chosen->skip.block == 1 ? "" : "s");
   if (n >= report.measured.size()) return text + ": not measured";
   if (n == best) return text + ": the best";
-  return fmt::format("{}: {:.2f} times the best ({})", text, median_ms(report, n) / median_ms(report, best),
+  return fmt::format("{}: {:.2f} times the best ({})", text, report.median_ms(n) / report.median_ms(best),
                      short_name(report.settings[best]));
 }
 

@@ -31,6 +31,8 @@ struct SweepReport {
   std::vector<SweepMeasurement> measured;  ///< of the first of them, at least one; of fewer than there are after Ctrl-C
   std::vector<BricksMeasurement> bricks;   ///< none where no brick size was asked for
 
+  /// Of the frames of a setting.
+  double median_ms(std::size_t setting) const;
   /// Number of the setting with the least median frame time.
   std::size_t best() const;
   /// How many times as fast as none: frames of the same round and view.

@@ -1,6 +1,7 @@
 #include "bench/timing.h"
 
 #include <cassert>
+#include <nlohmann/json.hpp>
 
 #include "app/render_report.h"
 
@@ -46,6 +47,10 @@ Spread speedup(const Cost& cost, const Cost& baseline) {
   std::vector<double> ratios;
   for (std::size_t n = 0; n < cost.frame_ms.size(); ++n) ratios.push_back(baseline.frame_ms[n] / cost.frame_ms[n]);
   return spread(ratios);
+}
+
+nlohmann::ordered_json spread_json(const Spread& spread) {
+  return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}};
 }
 
 }  // namespace quincunx

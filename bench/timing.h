@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,5 +45,7 @@ Spread speedup(const Cost& cost, const Cost& baseline);
 
 /// Median, 5th and 95th percentile of at least one value.
 Spread spread(const std::vector<double>& values);
+/// {"median":..,"p5":..,"p95":..}.
+nlohmann::ordered_json spread_json(const Spread& spread);
 
 }  // namespace quincunx

@@ -16,7 +16,7 @@ using Boxes = std::vector<BihBox>;
 BihBox cube_at(const glm::vec3& low, float edge = 1.0f) { return {low, low + edge}; }
 
 /// Boxes of any proportions in a box that is not at the origin; flat ones and points among them.
-Boxes random_boxes(int count) {
+Boxes random_bih_boxes(int count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-30.0f, 90.0f), size(0.0f, 4.0f);
   Boxes boxes;
@@ -53,7 +53,7 @@ std::vector<Case> cases() {
   return {{"one", {cube_at({3, 4, 5})}},
           {"a point", {cube_at({0, 0, 0}, 0.0f)}},
           {"two", {cube_at({3, 4, 5}), cube_at({-3, 4, 5})}},
-          {"random", random_boxes(3000)},
+          {"random", random_bih_boxes(3000)},
           {"shell", shell_of_cubes(24)},
           {"the same", Boxes(100, cube_at({1, 2, 3}))},
           {"shrinking", shrinking(60)},
@@ -140,7 +140,7 @@ TEST(BihBuild, EveryBoxIsInOneLeafAndInsideAllPlanesAboveIt) {
 }
 
 TEST(BihBuild, EveryRayThatMeetsABoxReachesItsLeaf) {
-  const Boxes boxes = random_boxes(800);
+  const Boxes boxes = random_bih_boxes(800);
   const Bih bih = build_bih(boxes, {});
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -184,7 +184,7 @@ std::vector<std::uint32_t> shape_of(const Bih& bih) {
 }
 
 TEST(BihBuild, IsTheSameTreeInChunksOfAnyDepthAndEveryTime) {
-  const Boxes boxes = random_boxes(20000);  // built by several threads
+  const Boxes boxes = random_bih_boxes(20000);  // built by several threads
   const std::vector<std::uint32_t> shape = shape_of(build_bih(boxes, {.chunk_levels = 1}));
   for (const int levels : {1, 2, 3, 4, 7, 64}) {
     const BihConfig config{.chunk_levels = levels};

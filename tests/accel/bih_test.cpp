@@ -11,7 +11,6 @@
 namespace quincunx {
 namespace {
 
-const Thresholds kNoThresholds{CellBounds{}, {}};
 
 /// The blocks of the leaves in a structure's buffer, by its words alone. Expects them between all planes above, in blocks.
 struct Walked {

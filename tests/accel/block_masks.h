@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/classification.h"
+#include "accel/thresholds.h"
 
 namespace quincunx {
 
@@ -16,6 +17,9 @@ Classification make_mask(const glm::ivec3& blocks, const std::function<bool(cons
 Classification filled_mask(const glm::ivec3& blocks);
 
 bool is_active(const Classification& blocks, const glm::ivec3& b);
+
+/// For structures that ask for the blocks alone.
+inline const Thresholds kNoThresholds{CellBounds{}, {}};
 
 struct BlockMask {
   std::string name;

@@ -62,7 +62,6 @@ BoxTree tree_of(const Bvh& bvh) {
   return tree;
 }
 
-const Thresholds kNoThresholds{CellBounds{}, {}};
 
 TEST(Bvh, HierarchiesHoldEveryBoxOnceWhateverTheirNumber) {
   for (int count : {0, 1, 2, 3, 5, 64, 1000, 20000}) {

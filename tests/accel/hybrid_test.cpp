@@ -137,8 +137,8 @@ TEST(Hybrid, RaysFromAnyEyeMeetTheLeavesFrontToBack) {
 }
 
 /// Bounds of a smooth volume in blocks, a few of them void, and what is seen of it.
-struct Example {
-  Example() {
+struct HybridExample {
+  HybridExample() {
     for (std::size_t n = 0; n < blocks.min.size(); n += 17) blocks.min[n] = 65535, blocks.max[n] = 0;
   }
   CellBounds cells = bounds_of(smooth_coefficients({9, 7, 5}));
@@ -150,7 +150,7 @@ struct Example {
 };
 
 TEST(Hybrid, MinimaAndMaximaTellOfEveryBlockWhatItsClassificationDoes) {
-  const Example e;
+  const HybridExample e;
   Hybrid mm({.grid = HybridGrid::mm}), pc({.grid = HybridGrid::pc});
   for (Hybrid* hybrid : {&mm, &pc}) hybrid->prepare(e.blocks);
   int some = 0;
@@ -181,7 +181,7 @@ std::vector<std::string> changed(const Hybrid& hybrid, std::vector<StructureBuff
 }
 
 TEST(Hybrid, ANewIsovalueLeavesMinimaAndMaximaAsTheyAre) {
-  const Example e;
+  const HybridExample e;
   const std::vector<ValueRange> one{{e.value(0.5), e.value(0.5)}}, other{{e.value(0.4), e.value(0.4)}};
   for (const HybridGrid grid : {HybridGrid::mm, HybridGrid::pc}) {
     const bool mm = grid == HybridGrid::mm;

@@ -47,7 +47,7 @@ TEST(StepsMeasure, FindsOrderTwoInDoublePrecision) {
   EXPECT_LT(lines[2].post.rms, 2e-4);
 }
 
-StepsReport known_report() {
+StepsReport known_steps_report() {
   StepsReport report{.plan = {}, .machine = {"a device", "", "a processor", 2}, .lines = {}};
   report.lines = {{"bcc7", 0.8, {0.04, 0.1, {3.0, 1.0, 2.0}}, {0.01, 0.02, {4.0}}}, {"bcc7", 0.4, {0.01, 0.025, {5.0}}, {0.00125, 0.002, {6.0}}},
                   {"trilinear", 0.8, {0.5, 0.5, {7.0}}, {0.5, 0.5, {8.0}}}};
@@ -55,16 +55,16 @@ StepsReport known_report() {
 }
 
 TEST(StepsReport, ShowsErrorsAndTheOrderBetweenTheStepsOfASpline) {
-  const Table table = steps_table(known_report());
+  const Table table = steps_table(known_steps_report());
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_THAT(table.rows[0], ElementsAre("bcc7", "0.8", "4.0e-02", "-", "1.0e-01", "2", "1.0e-02", "-", "2.0e-02", "4"));
   EXPECT_THAT(table.rows[1], ElementsAre("bcc7", "0.4", "1.0e-02", "2.00", "2.5e-02", "5", "1.3e-03", "3.00", "2.0e-03", "6"));
   EXPECT_THAT(table.rows[2], ElementsAre("trilinear", "0.8", "5.0e-01", "-", "5.0e-01", "7", "5.0e-01", "-", "5.0e-01", "8"));
   EXPECT_EQ(table.headings.size(), table.rows[0].size());
-  const auto json = steps_json(known_report());
+  const auto json = steps_json(known_steps_report());
   EXPECT_TRUE(json["lines"][0]["post"]["order"].is_null());
   EXPECT_DOUBLE_EQ(json["lines"][1]["post"]["order"], 2.0);
-  EXPECT_THAT(steps_caption(known_report()), HasSubstr("a device"));
+  EXPECT_THAT(steps_caption(known_steps_report()), HasSubstr("a device"));
 }
 
 TEST(Steps, PrintsATableAndWritesTheSameAsJson) {

@@ -23,7 +23,7 @@ const std::vector<DeviceInfo> kDevices = {
     made_up(4, "NVIDIA H200", "discrete GPU"),   made_up(5, "NVIDIA H200 second", "discrete GPU"),
 };
 
-std::string error_of(std::span<const DeviceInfo> devices, const std::string& select) {
+std::string selection_error(std::span<const DeviceInfo> devices, const std::string& select) {
   try {
     choose_device(devices, select);
   } catch (const DeviceError& error) {
@@ -35,7 +35,7 @@ std::string error_of(std::span<const DeviceInfo> devices, const std::string& sel
 TEST(DeviceChoice, PrefersDiscreteThenIntegratedThenVirtualThenCpu) {
   std::vector<DeviceInfo> devices = kDevices;
   std::vector<std::string> order;
-  while (!devices.empty() && error_of(devices, "").empty()) {
+  while (!devices.empty() && selection_error(devices, "").empty()) {
     const std::uint32_t chosen = choose_device(devices, "");
     order.push_back(devices[chosen].name);
     devices.erase(devices.begin() + chosen);
@@ -56,12 +56,12 @@ TEST(DeviceChoice, IndexIsThatOfTheListAlsoWhereTheListIsAPart) {
 }
 
 TEST(DeviceChoice, ErrorsListTheDevices) {
-  EXPECT_THAT(error_of(kDevices, "6"),
+  EXPECT_THAT(selection_error(kDevices, "6"),
               AllOf(HasSubstr("index 6"), HasSubstr("0: llvmpipe"), HasSubstr("4: NVIDIA H200 (discrete")));
-  EXPECT_THAT(error_of(kDevices, "99999999999999999999"), HasSubstr("no device of index 99999999999999999999"));
-  EXPECT_THAT(error_of(kDevices, "voodoo"), AllOf(HasSubstr("'voodoo'"), HasSubstr("2: Radeon 780M (integrated GPU)")));
-  EXPECT_THAT(error_of(kDevices, "3"), AllOf(HasSubstr("GeForce 210"), HasSubstr("lacks Vulkan 1.2")));
-  EXPECT_THAT(error_of({}, ""), HasSubstr("mesa-vulkan-drivers"));
+  EXPECT_THAT(selection_error(kDevices, "99999999999999999999"), HasSubstr("no device of index 99999999999999999999"));
+  EXPECT_THAT(selection_error(kDevices, "voodoo"), AllOf(HasSubstr("'voodoo'"), HasSubstr("2: Radeon 780M (integrated GPU)")));
+  EXPECT_THAT(selection_error(kDevices, "3"), AllOf(HasSubstr("GeForce 210"), HasSubstr("lacks Vulkan 1.2")));
+  EXPECT_THAT(selection_error({}, ""), HasSubstr("mesa-vulkan-drivers"));
 }
 
 TEST(Devices, ListedOnesAreNamedAndOneIsUsable) {

@@ -22,7 +22,7 @@ void main() {
 })";
 
 template <class Function>
-std::string error_of(Function&& function) {
+std::string dispatch_error(Function&& function) {
   try {
     function();
   } catch (const std::runtime_error& error) {
@@ -133,7 +133,7 @@ TEST_F(GpuTest, SpecializationConstantsAreSetByNameAndKeepTheirDefaults) {
   const Pipeline other = make(glsl, {{"kScale", std::bit_cast<std::uint32_t>(0.25f)}, {"kLanes", 5}});
   EXPECT_THAT(other.reflection.local_size, ElementsAre(5u, 1u, 1u));
   EXPECT_THAT(run(other), ElementsAre(0.75f, 0.75f, 0.75f, 0.75f, 0.75f, 0, 0, 0));
-  EXPECT_THAT(error_of([&] { make(glsl, {{"kStep", 1}}); }), HasSubstr("'kStep'"));
+  EXPECT_THAT(dispatch_error([&] { make(glsl, {{"kStep", 1}}); }), HasSubstr("'kStep'"));
 }
 
 TEST_F(GpuTest, SpecializedWorkGroupsAreCheckedAgainstTheDevice) {
@@ -149,7 +149,7 @@ TEST_F(GpuTest, ResourcesMissingTooManyOrWrongAreNamed) {
   const Buffer uniform = create_buffer(*device, 64, BufferUse::uniform, "u");
   const std::vector<std::uint32_t> push = {1, 0};
   const auto error = [&](const Resources& resources) {
-    return error_of([&] { dispatch(*device, pipeline, resources, bytes_of(push), 1); });
+    return dispatch_error([&] { dispatch(*device, pipeline, resources, bytes_of(push), 1); });
   };
   EXPECT_THAT(error({{"source", b}}), HasSubstr("'result' was not given"));
   EXPECT_THAT(error({{"source", b}, {"result", b}, {"grid", b}}),
@@ -164,9 +164,9 @@ TEST_F(GpuTest, PushConstantsMustHaveTheirSize) {
   const Pipeline pipeline = make(kDouble);
   const Buffer b = create_buffer(*device, 64, BufferUse::storage, "b");
   const Resources resources = {{"source", b}, {"result", b}};
-  EXPECT_THAT(error_of([&] { dispatch(*device, pipeline, resources, push_bytes({1}), 1); }),
+  EXPECT_THAT(dispatch_error([&] { dispatch(*device, pipeline, resources, push_bytes({1}), 1); }),
               AllOf(HasSubstr("8 bytes"), HasSubstr("4 were given")));
-  EXPECT_THAT(error_of([&] { dispatch(*device, pipeline, resources, {}, 1); }), HasSubstr("0 were given"));
+  EXPECT_THAT(dispatch_error([&] { dispatch(*device, pipeline, resources, {}, 1); }), HasSubstr("0 were given"));
 }
 
 TEST_F(GpuTest, UniformBuffersSmallerThanTheirBlockAreRefused) {
@@ -177,7 +177,7 @@ TEST_F(GpuTest, UniformBuffersSmallerThanTheirBlockAreRefused) {
     void main() { result.v[0] = frame.b.x; })");
   const Buffer result = create_buffer(*device, 4, BufferUse::storage, "result");
   const Buffer small = create_buffer(*device, 16, BufferUse::uniform, "small");
-  EXPECT_THAT(error_of([&] {
+  EXPECT_THAT(dispatch_error([&] {
                 dispatch(*device, pipeline, {{"frame", small}, {"result", result}}, {}, 1);
               }),
               AllOf(HasSubstr("'frame'"), HasSubstr("32 bytes"), HasSubstr("16")));

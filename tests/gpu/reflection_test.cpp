@@ -18,7 +18,7 @@ std::vector<std::uint32_t> compiled(const std::string& glsl) {
 
 Reflection reflected(const std::string& glsl) { return reflect(compiled(glsl)); }
 
-std::string error_of(const std::string& glsl) {
+std::string reflection_error(const std::string& glsl) {
   try {
     reflected(glsl);
   } catch (const std::runtime_error& error) {
@@ -103,17 +103,17 @@ TEST(Reflection, OfAKernelThatUsesNothingIsEmpty) {
 
 TEST(Reflection, RefusesWhatIsNotOfferedByName) {
   EXPECT_THAT(
-      error_of(
+      reflection_error(
           "layout(set = 1, binding = 0) buffer Out { float o[]; } elsewhere; void main() { elsewhere.o[0] = 1.0; }"),
       AllOf(HasSubstr("elsewhere"), HasSubstr("set 1")));
   EXPECT_THAT(
-      error_of("layout(binding = 0) buffer Out { float o[]; } several[2]; void main() { several[0].o[0] = 1.0; }"),
+      reflection_error("layout(binding = 0) buffer Out { float o[]; } several[2]; void main() { several[0].o[0] = 1.0; }"),
       AllOf(HasSubstr("several"), HasSubstr("array")));
   EXPECT_THAT(
-      error_of(
+      reflection_error(
           "layout(binding = 0, r32f) uniform image2D picture; void main() { imageStore(picture, ivec2(0), vec4(1)); }"),
       HasSubstr("picture"));
-  EXPECT_THAT(error_of("layout(binding = 0) buffer A { float o[]; } a; layout(binding = 0) buffer B { uint o[]; } b;"
+  EXPECT_THAT(reflection_error("layout(binding = 0) buffer A { float o[]; } a; layout(binding = 0) buffer B { uint o[]; } b;"
                        "void main() { a.o[0] = 1.0; b.o[1] = 1; }"),
               AllOf(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("binding 0")));
 }

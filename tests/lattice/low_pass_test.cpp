@@ -11,7 +11,7 @@
 namespace quincunx {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 Volume sampled(LatticeKind lattice, const Extents& n, const std::function<double(const glm::dvec3&)>& f) {
   Volume volume{lattice, n, {}, std::vector<float>{}, {{"license", "none"}}};
@@ -29,7 +29,7 @@ std::pair<double, double> left_of(LatticeKind lattice, int axis, double frequenc
   n[axis] = lattice == LatticeKind::bcc ? 80 : 160;
   const auto wave = [&](const glm::dvec3& u) { return std::cos(2.0 * M_PI * frequency * u[axis] + 0.3); };
   const Volume in = sampled(lattice, n, wave), out = low_pass(in, glm::dvec3(cutoff));
-  double least = kInf, most = 0.0;
+  double least = kNoLimit, most = 0.0;
   for (std::int64_t m = n[axis] / 2 - 8; m < n[axis] / 2 + 8; ++m)
     for (int c = 0; c < coset_count(lattice); ++c) {
       glm::i64vec3 index(n / std::int64_t(2));
@@ -73,11 +73,11 @@ TEST(LowPass, KeepsConstantsUpToTheBorderAndEverythingElseOfTheVolume) {
 
 TEST(LowPass, LeavesAxesWithoutCutOffAloneToTheLastBit) {
   const Volume in = sampled(LatticeKind::cartesian, {8, 9, 10}, [](const glm::dvec3& u) { return std::sin(u.x) + std::cos(3.0 * u.y) * u.z; });
-  EXPECT_EQ(low_pass(in, glm::dvec3(kInf)).samples, in.samples);
+  EXPECT_EQ(low_pass(in, glm::dvec3(kNoLimit)).samples, in.samples);
   // A function of x alone is not changed along y and z.
   const Volume of_x = sampled(LatticeKind::cartesian, {30, 3, 3}, [](const glm::dvec3& u) { return std::cos(2.0 * M_PI * 0.4 * u.x); });
-  EXPECT_LT(std::abs(low_pass(of_x, {0.2, kInf, kInf}).sample(0, {15, 1, 1})), 1e-3);
-  EXPECT_NEAR(low_pass(of_x, {kInf, 0.2, 0.2}).sample(0, {15, 1, 1}), of_x.sample(0, {15, 1, 1}), 1e-6);
+  EXPECT_LT(std::abs(low_pass(of_x, {0.2, kNoLimit, kNoLimit}).sample(0, {15, 1, 1})), 1e-3);
+  EXPECT_NEAR(low_pass(of_x, {kNoLimit, 0.2, 0.2}).sample(0, {15, 1, 1}), of_x.sample(0, {15, 1, 1}), 1e-6);
 }
 
 TEST(LowPass, RefusesSamplesThatAreNotFiniteAndTellsHowFarItIs) {

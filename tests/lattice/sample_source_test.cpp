@@ -10,7 +10,7 @@
 namespace quincunx {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// Samples that all differ: their number times 3, and 7.
 template <class T>
@@ -69,9 +69,9 @@ TEST(StreamedSampleRange, IsThatOfTheVolumeOverManyBoxesAndCountsWhatIsNotFinite
 
   // The first box holds the first one in its second coset; a later box holds one of the first coset, with a lower number.
   const std::size_t row = 2048, plane = 700 * row, first = plane + 600 * row + 9;
-  samples[2 * plane + 5] = nan;
+  samples[2 * plane + 5] = kNotANumber;
   samples[first] = -std::numeric_limits<float>::infinity();
-  samples[3 * plane + 699 * row] = nan;
+  samples[3 * plane + 699 * row] = kNotANumber;
   range = sample_range(source);
   const SampleRange expected = sample_range(whole);
   EXPECT_EQ(range.min, expected.min);
@@ -81,7 +81,7 @@ TEST(StreamedSampleRange, IsThatOfTheVolumeOverManyBoxesAndCountsWhatIsNotFinite
 }
 
 TEST(StreamedSampleRange, OfNothingFiniteIsZero) {
-  const Volume whole{LatticeKind::cartesian, {2, 1, 1}, {}, std::vector<float>{nan, nan}, {}};
+  const Volume whole{LatticeKind::cartesian, {2, 1, 1}, {}, std::vector<float>{kNotANumber, kNotANumber}, {}};
   const SampleRange range = sample_range(VolumeSource(whole));
   EXPECT_EQ(range.min, 0.0);
   EXPECT_EQ(range.max, 0.0);

@@ -5,19 +5,19 @@
 namespace quincunx {
 namespace {
 
-void expect_near(const glm::dvec3& found, const glm::dvec3& expected, double tolerance) {
+void expect_near_color(const glm::dvec3& found, const glm::dvec3& expected, double tolerance) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], tolerance) << "channel " << c;
 }
 
 TEST(ColorSpace, InterpolatesAsVtkDoes) {
-  struct Case {
+  struct Interpolated {
     ColorSpace space;
     glm::dvec3 a, b;
     double s;
     glm::dvec3 color;
   };
   // vtkColorTransferFunction::GetColor of VTK 9.1, whose matrices to and from CIELAB are inverse to 4 digits.
-  const Case cases[] = {
+  const Interpolated cases[] = {
       {ColorSpace::hsv, {0.23, 0.3, 0.75}, {0.71, 0.016, 0.15}, 0.3, {0.42074, 0.16341, 0.73800}},
       {ColorSpace::hsv, {0.23, 0.3, 0.75}, {0.71, 0.016, 0.15}, 0.52, {0.65252, 0.11588, 0.72920}},
       {ColorSpace::hsv, {1, 0, 0}, {0, 0, 1}, 0.3, {0.80000, 1.00000, 0.00000}},
@@ -77,9 +77,9 @@ TEST(ColorSpace, InterpolatesAsVtkDoes) {
       {ColorSpace::step, {0.23, 0.3, 0.75}, {0.71, 0.016, 0.15}, 0.3, {0.71000, 0.01600, 0.15000}},
       {ColorSpace::step, {0.23, 0.3, 0.75}, {0.71, 0.016, 0.15}, 0.52, {0.71000, 0.01600, 0.15000}},
   };
-  for (const Case& c : cases) {
+  for (const Interpolated& c : cases) {
     SCOPED_TRACE(int(c.space));
-    expect_near(interpolate(c.space, c.a, c.b, c.s), c.color, 4e-4);
+    expect_near_color(interpolate(c.space, c.a, c.b, c.s), c.color, 4e-4);
   }
 }
 
@@ -88,13 +88,13 @@ TEST(ColorSpace, BeginsAndEndsWithItsColours) {
   for (const ColorSpace space : {ColorSpace::rgb, ColorSpace::hsv, ColorSpace::hsv_wrap, ColorSpace::lab, ColorSpace::diverging, ColorSpace::step})
     for (const glm::dvec3& a : colors)
       for (const glm::dvec3& b : colors) {
-        expect_near(interpolate(space, a, b, 0.0), a, 4e-4);
-        expect_near(interpolate(space, a, b, 1.0), b, 4e-4);
+        expect_near_color(interpolate(space, a, b, 0.0), a, 4e-4);
+        expect_near_color(interpolate(space, a, b, 1.0), b, 4e-4);
       }
 }
 
 TEST(ColorSpace, OfDisplaysIsUndoneByItsInverse) {
-  for (double x = 0.0; x <= 1.0; x += 1.0 / 256.0) expect_near(srgb_from_linear(linear_from_srgb({x, x * x, 0.04})), {x, x * x, 0.04}, 1e-7);
+  for (double x = 0.0; x <= 1.0; x += 1.0 / 256.0) expect_near_color(srgb_from_linear(linear_from_srgb({x, x * x, 0.04})), {x, x * x, 0.04}, 1e-7);
   EXPECT_NEAR(linear_from_srgb(glm::dvec3(188.0 / 255.0)).x, 0.5029, 1e-4);  // the grey that gives half the light
 }
 

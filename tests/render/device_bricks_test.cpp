@@ -44,12 +44,12 @@ DirectVolume glow() {
 }
 
 /// One way to look at `bumps`.
-struct Look {
+struct BrickLook {
   std::string name;
   std::vector<Isosurface> surfaces;
   std::optional<DirectVolume> volume;
 };
-std::vector<Look> looks() {
+std::vector<BrickLook> brick_looks() {
   const Isosurface opaque{0.4, {0.9, 0.8, 0.7}, 1.0}, clear{0.4, {0.9, 0.3, 0.1}, 0.4}, blue{-0.2, {0.2, 0.3, 0.9}, 0.5}, core{0.8, {0.9, 0.9, 0.2}, 1.0};
   DirectVolume pre_integrated = glow(), adaptive = glow(), jittered = glow(), quick = glow();
   pre_integrated.classify = Classify::pre_integrated, pre_integrated.entries = 64;
@@ -62,7 +62,7 @@ std::vector<Look> looks() {
           {"adaptive volume and a surface", {clear}, adaptive}};
 }
 
-Renderer::Request request_for(const Volume& volume, const Look& look, int size, double azimuth = 30.0) {
+Renderer::Request request_for(const Volume& volume, const BrickLook& look, int size, double azimuth = 30.0) {
   Renderer::Request request = request_for(volume, 0.0, size, azimuth);
   request.scene.isosurfaces = look.surfaces;
   request.scene.volume = look.volume;
@@ -131,7 +131,7 @@ TEST_P(EveryLook, IsTheSameThroughAPool) {
   for (const auto& [edge, slots] : pools) renderers.push_back(pooled(volume, GetParam(), edge, slots));
   std::uint64_t evictions = 0;
   const bool polynomial = make_spline(GetParam())->polynomial();
-  for (const Look& look : looks()) {
+  for (const BrickLook& look : brick_looks()) {
     if (!polynomial && !look.surfaces.empty()) continue;
     const Renderer::Request request = request_for(volume, look, 24);
     const Frame truth = whole(volume, GetParam(), request);
@@ -147,12 +147,12 @@ TEST_P(EveryLook, IsTheSameThroughAPool) {
   EXPECT_GT(evictions, 30u) << "pools were too small";
 }
 
-// Small volumes (below) are seen with every spline; all looks with three, as compiling so many kernels takes long.
+// Small volumes (below) are seen with every spline; all brick_looks with three, as compiling so many kernels takes long.
 INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::Values("bcc7", "trilinear", "tricubic"), [](const auto& spline) { return std::string(spline.param); });
 
 TEST_F(DeviceBricksTest, EveryStructureWithBlocksOfEverySizeShowsTheSame) {
   const Volume volume = bumps(LatticeKind::cartesian, {19, 22, 17});
-  for (const Look& look : {looks()[2], looks()[3]}) {
+  for (const BrickLook& look : {brick_looks()[2], brick_looks()[3]}) {
     const Frame truth = whole(volume, "trilinear", request_for(volume, look, 20));
     DeviceRenderer renderer = pooled(volume, "trilinear", 8, 4);
     std::size_t n = 0;
@@ -173,7 +173,7 @@ TEST_F(DeviceBricksTest, SmallVolumesAreSeenThroughOneSlotOfTheLeastBricks) {
   for (const Extents& n : {Extents(1, 1, 40), Extents(37, 1, 2), Extents(2, 3, 5), Extents(6, 7, 6), Extents(1, 1, 1)})
     for (const std::string_view spline : spline_names()) {
       const Volume volume = bumps(make_spline(spline)->lattice(), n);
-      for (const Look& look : {looks()[1], looks()[4]}) {
+      for (const BrickLook& look : {brick_looks()[1], brick_looks()[4]}) {
         if (!make_spline(spline)->polynomial() && !look.surfaces.empty()) continue;
         SCOPED_TRACE(std::string(spline) + ", " + look.name + ", " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z));
         const Renderer::Request request = request_for(volume, look, 10, 60.0);
@@ -186,7 +186,7 @@ TEST_F(DeviceBricksTest, SmallVolumesAreSeenThroughOneSlotOfTheLeastBricks) {
 
 TEST_F(DeviceBricksTest, TheEyeMayBeInsideTheVolume) {
   const Volume volume = bumps(LatticeKind::bcc, {12, 12, 12});
-  for (const Look& look : {looks()[2], looks()[7]}) {
+  for (const BrickLook& look : {brick_looks()[2], brick_looks()[7]}) {
     Renderer::Request request = request_for(volume, look, 24);
     request.scene.camera.eye = 0.97 * request.scene.camera.target + 0.03 * request.scene.camera.eye;
     request.scene.camera.fov = 80.0;
@@ -198,7 +198,7 @@ TEST_F(DeviceBricksTest, TheEyeMayBeInsideTheVolume) {
 
 TEST_F(DeviceBricksTest, PicturesInBandsAreThoseInOne) {
   const Volume volume = bumps(LatticeKind::bcc, {10, 10, 10});
-  for (const Look& look : {looks()[2], looks()[3]}) {
+  for (const BrickLook& look : {brick_looks()[2], brick_looks()[3]}) {
     Renderer::Request request = request_for(volume, look, 40);
     request.scene.cost = true;
     DeviceRenderer banded = pooled(volume, "", 8, 3, {.texel_elements = 0, .frame_bytes = 40 * 96 * 17});  // 16 rows
@@ -212,7 +212,7 @@ TEST_F(DeviceBricksTest, PicturesInBandsAreThoseInOne) {
 
 TEST_F(DeviceBricksTest, SlotsMayLieAcrossTexelBuffers) {
   const Volume volume = bumps(LatticeKind::cartesian, {22, 20, 18});
-  for (const Look& look : {looks()[1], looks()[3]}) {
+  for (const BrickLook& look : {brick_looks()[1], brick_looks()[3]}) {
     const Renderer::Request request = request_for(volume, look, 24);
     // 12^3 floats a slot, seven of them in six buffers of 2^11.
     DeviceRenderer renderer = pooled(volume, "tricubic", 8, 7, {.texel_elements = 2100, .frame_bytes = 0});
@@ -228,7 +228,7 @@ TEST_F(DeviceBricksTest, AKeptPoolShowsWhateverIsAskedForNext) {
   RenderStats stats;
   std::uint64_t loads = 0;
   for (const auto& [number, azimuth, block] : {std::tuple{1, 30.0, 8}, {3, 100.0, 2}, {2, 200.0, 4}, {1, 30.0, 32}, {0, 300.0, 0}}) {
-    Renderer::Request request = request_for(volume, looks()[std::size_t(number)], 20, azimuth);
+    Renderer::Request request = request_for(volume, brick_looks()[std::size_t(number)], 20, azimuth);
     request.skip.block = block;
     const Frame found = renderer.render(request, stats);
     request.skip.block = 8;
@@ -240,7 +240,7 @@ TEST_F(DeviceBricksTest, AKeptPoolShowsWhateverIsAskedForNext) {
 
 TEST_F(DeviceBricksTest, ARendererThatWasInterruptedShowsTheTruthAfterwards) {
   const Volume volume = bumps(LatticeKind::bcc, {10, 11, 12});
-  const Renderer::Request request = request_for(volume, looks()[1], 20);
+  const Renderer::Request request = request_for(volume, brick_looks()[1], 20);
   const Frame truth = whole(volume, "", request);
   DeviceRenderer renderer = pooled(volume, "", 8, 3);
   RenderStats stats;
@@ -315,7 +315,7 @@ TEST_F(DeviceBricksTest, SamplesThatAreNotFiniteAreRefusedHoweverEmptySpaceIsSki
   samples[(6 * 8 + 7) * 9 + 8] = std::numeric_limits<float>::infinity();
   for (const std::string structure : {"none", "grid", "auto"}) {
     DeviceRenderer renderer = pooled(volume, "trilinear", 4, 8);
-    Renderer::Request request = request_for(volume, looks()[0], 8);
+    Renderer::Request request = request_for(volume, brick_looks()[0], 8);
     request.skip = {.structure = structure};
     RenderStats stats;
     EXPECT_THAT(refusal([&] { renderer.render(request, stats); }), AllOf(HasSubstr("bumps.nrrd"), HasSubstr("2 NaN or infinite of 504"), HasSubstr("index (1, 2, 3)"))) << structure;
@@ -326,10 +326,10 @@ TEST_F(DeviceBricksTest, WhatAPoolCannotShowIsRefused) {
   const Volume volume = bumps(LatticeKind::bcc, {6, 6, 6});
   DeviceRenderer renderer = pooled(volume, "", 4, 8);
   RenderStats stats;
-  Renderer::Request request = request_for(volume, looks()[0], 8);
+  Renderer::Request request = request_for(volume, brick_looks()[0], 8);
   request.scene.intersect = Intersect::march;
   EXPECT_THAT(refusal([&] { renderer.render(request, stats); }), AllOf(HasSubstr("--pool"), HasSubstr("march"), HasSubstr("exact")));
-  request = request_for(volume, looks()[0], 8);
+  request = request_for(volume, brick_looks()[0], 8);
   request.scene.normal = Normal::central;
   EXPECT_THAT(refusal([&] { renderer.render(request, stats); }), AllOf(HasSubstr("--pool"), HasSubstr("central"), HasSubstr("analytic")));
   const auto source = std::make_shared<VolumeSource>(volume);
@@ -337,7 +337,7 @@ TEST_F(DeviceBricksTest, WhatAPoolCannotShowIsRefused) {
   Renderer::Config small = config_of(volume, "", 4, 1);
   --*small.pool_bytes;
   DeviceRenderer cramped(test_kernels(), source, "bumps.nrrd", small);
-  EXPECT_THAT(refusal([&] { cramped.render(request_for(volume, looks()[0], 8), stats); }),
+  EXPECT_THAT(refusal([&] { cramped.render(request_for(volume, brick_looks()[0], 8), stats); }),
               AllOf(HasSubstr("--pool"), HasSubstr(std::to_string(*small.pool_bytes + 1) + " bytes")));
 }
 

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "render/device_renderer.h"
+#include "tests/render/same_picture.h"
 #include "tests/render/volumes.h"
 
 namespace quincunx {
@@ -38,15 +38,11 @@ inline Renderer::Request request_for(const Volume& volume, double isovalue, int 
   return request;
 }
 
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
+/// Sheared and left-handed.
+inline const World kMirroredWorld{.origin = {3.0, -7.0, 11.0}, .axes = glm::dmat3(1.0, 0.2, 0.0, -0.3, 0.8, 0.1, 0.0, 0.2, -1.1)};
 
-inline void expect_same_picture(const Frame& a, const Frame& b) {
-  EXPECT_TRUE(same_bits(a.depth, b.depth));
-  EXPECT_TRUE(same_bits(a.normal, b.normal));
-  EXPECT_TRUE(same_bits(a.color, b.color));
-}
+/// The edge of a cube of the volume of a cell, world units.
+inline double cell_size(const World& world) { return std::cbrt(std::abs(glm::determinant(world.axes))); }
 
 /// How far a picture is from the reference, over the hits both have.
 struct Difference {

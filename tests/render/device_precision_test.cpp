@@ -25,7 +25,7 @@ Frame picture_of(const Volume& volume, const Renderer::Request& request, Precisi
   return DeviceRenderer(test_kernels(), volume, config).render(request, stats);
 }
 
-Frame truth_of(const Volume& volume, const Scene& scene, const std::string& spline_name = "bcc7") {
+Frame truth_by(const Volume& volume, const Scene& scene, const std::string& spline_name = "bcc7") {
   const std::unique_ptr<Spline> spline = make_spline(spline_name);
   return render_reference(*spline, spline->coefficients(volume, Spline::Prefilter::automatic), scene, nullptr);
 }
@@ -81,8 +81,6 @@ Renderer::Request view_of(const AdversarialVolume& c, const Volume& volume, int 
   return request;
 }
 
-double cell_of(const World& world) { return std::cbrt(std::abs(glm::determinant(world.axes))); }
-
 TEST_F(DevicePrecisionTest, DoublesHitWhereTheReferenceHitsToTheLastBitOfADepth) {
   for (const std::string spline : {"bcc4", "bcc7", "bcc8", "trilinear", "tricubic"}) {
     Agreement all;
@@ -90,7 +88,7 @@ TEST_F(DevicePrecisionTest, DoublesHitWhereTheReferenceHitsToTheLastBitOfADepth)
     for (const AdversarialVolume& c : adversarial_volumes()) {
       const Volume volume = make_spline(spline)->lattice() == LatticeKind::bcc ? c.volume : cartesian_twin(c.volume);
       const Renderer::Request request = view_of(c, volume, view++ % 3, 64);
-      const Agreement a = agreement(picture_of(volume, request, Precision::float64, spline), truth_of(volume, request.scene, spline), cell_of(volume.world));
+      const Agreement a = agreement(picture_of(volume, request, Precision::float64, spline), truth_by(volume, request.scene, spline), cell_size(volume.world));
       print(spline + ", " + c.name, a);
       all += a;
     }
@@ -108,7 +106,7 @@ TEST_F(DevicePrecisionTest, DoublesShowTheSurfacesBehindEachOtherThatTheReferenc
   for (const AdversarialVolume& c : adversarial_volumes()) {
     Renderer::Request request = view_of(c, c.volume, view++ % 3, 48);
     request.scene.isosurfaces = {{c.isovalue, {1, 0, 0}, 0.5}, {0.8 * c.isovalue + 0.05, {0, 1, 0}, 0.5}, {1.1 * c.isovalue + 0.02, {0, 0, 1}, 0.3}};
-    const Agreement a = agreement(picture_of(c.volume, request, Precision::float64), truth_of(c.volume, request.scene), cell_of(c.volume.world));
+    const Agreement a = agreement(picture_of(c.volume, request, Precision::float64), truth_by(c.volume, request.scene), cell_size(c.volume.world));
     print(c.name, a);
     all += a;
   }
@@ -127,7 +125,7 @@ TEST_F(DevicePrecisionTest, DoublesMarchAsTheReferenceDoes) {
     request.scene.step = 0.3;
     request.scene.normal = Normal::central;
     request.scene.delta = 0.4;
-    all += agreement(picture_of(volume, request, Precision::float64), truth_of(volume, request.scene));
+    all += agreement(picture_of(volume, request, Precision::float64), truth_by(volume, request.scene));
   }
   print("march", all);
   EXPECT_GT(all.hits, 3000u);
@@ -142,7 +140,7 @@ TEST_F(DevicePrecisionTest, DoublesSeeFromAHundredThousandVolumesAwayWhatTheRefe
   Camera& camera = request.scene.camera;
   camera.eye = camera.target + 3.1e6 * glm::normalize(camera.eye - camera.target);
   camera.fov = 8e-4;
-  const Frame truth = truth_of(volume, request.scene);
+  const Frame truth = truth_by(volume, request.scene);
   const Agreement d = agreement(picture_of(volume, request, Precision::float64), truth), f = agreement(picture_of(volume, request, Precision::float32), truth);
   print("far, double", d), print("far, float", f);
   EXPECT_GT(d.hits, 3000u);
@@ -154,7 +152,7 @@ TEST_F(DevicePrecisionTest, DoublesSeeFromAHundredThousandVolumesAwayWhatTheRefe
 TEST_F(DevicePrecisionTest, DoublesTellASignalOfOneOnAnOffsetOfAMillion) {
   const Volume volume = bcc_volume({14, 14, 14}, [](const glm::dvec3& u) { return 1e6 + 0.5 + 0.25 * std::sin(0.31 * u.x + 0.2 * u.y) + 0.25 * std::sin(0.4 * u.y - 0.13 * u.z); });
   const Renderer::Request request = request_for(volume, 1e6 + 0.53, 96);
-  const Frame truth = truth_of(volume, request.scene);
+  const Frame truth = truth_by(volume, request.scene);
   const Agreement d = agreement(picture_of(volume, request, Precision::float64), truth), f = agreement(picture_of(volume, request, Precision::float32), truth);
   print("offset, double", d), print("offset, float", f);
   EXPECT_GT(d.hits, 3000u);
@@ -177,7 +175,7 @@ TEST_F(DevicePrecisionTest, DoublesDecideRaysThatAlmostTouchAsTheReferenceDoes) 
   camera.target = centre + along * away + std::sqrt(64.0 * (1.0 - along)) * side;
   camera.up = side;
   camera.fov = 64.0 * 1e-10 / 40.0 * 180.0 / M_PI;
-  const Frame truth = truth_of(volume, request.scene);
+  const Frame truth = truth_by(volume, request.scene);
   const Agreement d = agreement(picture_of(volume, request, Precision::float64), truth), f = agreement(picture_of(volume, request, Precision::float32), truth);
   print("tangent, double", d), print("tangent, float", f);
   EXPECT_GT(d.hits, 64u * 20);
@@ -191,7 +189,7 @@ TEST_F(DevicePrecisionTest, DoublesShowBothOfTwoSheetsAThousandthOfACellApart) {
   const Volume volume = bcc_volume({11, 11, 11}, [](const glm::dvec3& u) { return (u.x + u.y - 20.5) * (u.x + u.y - 20.5); });
   Renderer::Request request = request_for(volume, 5e-7, 64, -50.0, 15.0);
   request.scene.isosurfaces[0].opacity = 0.5;
-  const Frame truth = truth_of(volume, request.scene);
+  const Frame truth = truth_by(volume, request.scene);
   const auto both = [](const Frame& frame) { return std::count_if(frame.depth.begin(), frame.depth.end(), [&](const float& z) { return std::isfinite(z) && frame.color[4 * std::size_t(&z - frame.depth.data()) + 3] == 0.75f; }); };
   for (const Precision precision : kBoth) {
     const Frame frame = picture_of(volume, request, precision);

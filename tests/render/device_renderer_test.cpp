@@ -24,8 +24,6 @@ Frame picture_of(const Volume& volume, const Renderer::Request& request) {
   return renderer.render(request, stats);
 }
 
-double cell_of(const World& world) { return std::cbrt(std::abs(glm::determinant(world.axes))); }
-
 World sheared_world() {
   World world;
   world.origin = {100.0, -20.0, 3.0};
@@ -48,7 +46,7 @@ TEST_F(DeviceRendererTest, HitsAreTheReferencesToTheRoundingOfADepth) {
   for (const auto& [volume, isovalue] : {std::pair{&marschner_lobb, 0.5}, {&bumpy, 0.2}, {&noise, 0.6}})
     for (const auto& [azimuth, elevation] : {std::pair{30.0, 20.0}, {200.0, -55.0}}) {
       const Renderer::Request request = request_for(*volume, isovalue, 128, azimuth, elevation);
-      all += compare(picture_of(*volume, request), truth_of(*volume, request.scene), cell_of(volume->world));
+      all += compare(picture_of(*volume, request), truth_of(*volume, request.scene), cell_size(volume->world));
     }
   EXPECT_GT(all.hits, 30000u);
   EXPECT_LE(all.strayed, all.hits / 10000);
@@ -115,7 +113,7 @@ TEST_F(DeviceRendererTest, MarchingLosesWhatTheReferenceLosesByMarching) {
   Renderer::Request request = request_for(volume, 0.5, 96);
   request.scene.intersect = Intersect::march;
   request.scene.step = 0.5;
-  const Difference d = compare(picture_of(volume, request), truth_of(volume, request.scene), cell_of(volume.world));
+  const Difference d = compare(picture_of(volume, request), truth_of(volume, request.scene), cell_size(volume.world));
   EXPECT_GT(d.hits, 1000u);
   EXPECT_LE(d.strayed, 2 + d.hits / 1000);
   EXPECT_LE(d.depth_rms, 1e-3);

@@ -24,7 +24,7 @@ struct Answer {
 };
 static_assert(sizeof(Question) == 48 && sizeof(Answer) == 96);
 
-constexpr const char* kKernel = R"(#version 460
+constexpr const char* kSplineKernel = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "real.glsl"
@@ -94,7 +94,7 @@ class DeviceSplineTest : public DeviceTest, public ::testing::WithParamInterface
   std::vector<Answer> ask(const std::vector<Question>& questions) const {
     gpu::Device& device = test_kernels()->device();
     const auto files = [&](std::string_view name) {
-      return name == "test.comp" ? std::string_view(kKernel) : shader_file(name == "spline.glsl" ? spline_->shader() : name);
+      return name == "test.comp" ? std::string_view(kSplineKernel) : shader_file(name == "spline.glsl" ? spline_->shader() : name);
     };
     const gpu::KernelSource source{"test.comp",
                                    {{"VOLUME", "1"},

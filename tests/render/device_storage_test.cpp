@@ -37,12 +37,12 @@ Volume hills(LatticeKind lattice, const Extents& n) {
 constexpr double kSummit = 119.3;  // about the hills' tops alone
 
 /// A spline that can be intersected exactly, and a small volume of its lattice.
-struct Case {
+struct StoredCase {
   std::string spline;
   Volume volume;
 };
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<StoredCase> cases() {
+  std::vector<StoredCase> all;
   for (const std::string_view spline : spline_names()) {
     if (!make_spline(spline)->polynomial()) continue;
     const LatticeKind lattice = make_spline(spline)->lattice();
@@ -51,7 +51,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-DirectVolume glow() {
+DirectVolume glow_of_bytes() {
   DirectVolume volume;
   volume.function.colors = {{90.0, {0.1, 0.3, 0.9}}, {130.0, {0.9, 0.5, 0.1}}};
   volume.function.opacities = {{114.0, 0.0}, {117.0, 0.5}, {119.0, 0.0}, {122.0, 0.0}, {124.0, 0.8}};
@@ -76,7 +76,7 @@ class DeviceStorageTest : public DeviceTest {
     return renderer.render(request, stats);
   }
   /// A renderer of bricks of `edge` cells, with so many slots of them.
-  static DeviceRenderer pooled(const Case& c, Storage storage, int edge, std::uint64_t slots, const DeviceLimits& limits = {}) {
+  static DeviceRenderer pooled(const StoredCase& c, Storage storage, int edge, std::uint64_t slots, const DeviceLimits& limits = {}) {
     Renderer::Config config = config_of(c.spline, storage);
     config.brick = edge;
     const BrickLayout layout(c.volume.lattice, c.volume.extents, make_spline(c.spline)->apron(), edge, storage);
@@ -94,7 +94,7 @@ TEST_F(DeviceStorageTest, SurfacesAreTheReferencesOfTheStoredCoefficients) {
   for (const Storage storage : kPacked) {
     Difference all;
     std::size_t moved = 0;
-    for (const Case& c : cases()) {
+    for (const StoredCase& c : cases()) {
       SCOPED_TRACE(c.spline + ", " + storage_name(storage));
       const Renderer::Config config = config_of(c.spline, storage);
       const Renderer::Request request = request_for(c.volume, 109.7, 64);
@@ -118,11 +118,11 @@ TEST_F(DeviceStorageTest, SurfacesAreTheReferencesOfTheStoredCoefficients) {
 
 TEST_F(DeviceStorageTest, VolumesAreTheReferencesOfTheStoredCoefficients) {
   for (const Storage storage : kPacked)
-    for (const Case& c : cases()) {
+    for (const StoredCase& c : cases()) {
       SCOPED_TRACE(c.spline + ", " + storage_name(storage));
       Renderer::Request request = request_for(c.volume, 0.0, 32);
       request.scene.isosurfaces.clear();
-      request.scene.volume = glow();
+      request.scene.volume = glow_of_bytes();
       request.scene.volume->modulate_from = 0.5, request.scene.volume->modulate_to = 3.0;
       const Renderer::Config config = config_of(c.spline, storage);
       RenderStats stats;
@@ -133,14 +133,14 @@ TEST_F(DeviceStorageTest, VolumesAreTheReferencesOfTheStoredCoefficients) {
 }
 
 TEST_F(DeviceStorageTest, NoStructureChangesAPixel) {
-  const std::vector<Case> all = cases();
+  const std::vector<StoredCase> all = cases();
   std::size_t n = 0;
   for (const Storage storage : kPacked) {
-    const Case& c = all[std::size_t(storage) % all.size()];
+    const StoredCase& c = all[std::size_t(storage) % all.size()];
     DeviceRenderer renderer(test_kernels(), c.volume, config_of(c.spline, storage));
     for (const bool seen_as_volume : {false, true}) {
       Renderer::Request request = request_for(c.volume, kSummit, 32, 200.0, -30.0);
-      if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow();
+      if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow_of_bytes();
       request.skip = {.structure = "none"};
       RenderStats stats;
       const Frame truth = renderer.render(request, stats);
@@ -193,7 +193,7 @@ void main() {
 }
 
 TEST_F(DeviceStorageTest, SeveralBuffersShowWhatOneDoes) {
-  const Case c = cases().front();
+  const StoredCase c = cases().front();
   const Renderer::Request request = request_for(c.volume, 109.7, 32);
   for (const Storage storage : kPacked) {
     RenderStats stats;
@@ -205,13 +205,13 @@ TEST_F(DeviceStorageTest, SeveralBuffersShowWhatOneDoes) {
 }
 
 TEST_F(DeviceStorageTest, APoolShowsTheSameWithAnyNumberOfSlotsAndWhateverIsSkipped) {
-  for (const Case& c : cases())
+  for (const StoredCase& c : cases())
     for (const Storage storage : kPacked)
       for (const bool seen_as_volume : {false, true}) {
         if (c.spline != "bcc7" && (storage != Storage::unorm8 || seen_as_volume)) continue;  // kernels are the same, their compilation takes long
         SCOPED_TRACE(c.spline + ", " + storage_name(storage));
         Renderer::Request request = request_for(c.volume, kSummit, 24);
-        if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow();
+        if (seen_as_volume) request.scene.isosurfaces.clear(), request.scene.volume = glow_of_bytes();
         DeviceRenderer roomy = pooled(c, storage, 8, 1000), cramped = pooled(c, storage, 8, 2);
         RenderStats stats;
         request.skip = {.structure = "none"};
@@ -235,7 +235,7 @@ TEST_F(DeviceStorageTest, SkippingChangesNoPixelOfVolumesMadeToBreakIt) {
   std::size_t n = 0;
   for (const auto& [name, volume, isovalue] : adversarial_volumes()) {
     SCOPED_TRACE(name);
-    const Case c{"bcc7", volume};
+    const StoredCase c{"bcc7", volume};
     const bool see_through = ++n % 2 == 0;
     DeviceRenderer whole(test_kernels(), volume, config_of(c.spline, Storage::unorm8)), bricks = pooled(c, Storage::unorm8, 4, 1000);
     for (DeviceRenderer* renderer : {&whole, &bricks}) {
@@ -271,7 +271,7 @@ Apart apart(const Frame& a, const Frame& b) {
 TEST_F(DeviceStorageTest, ASurfaceThroughManyBricksHasNoHolesAndIsNearTheUnroundedOne) {
   for (const std::string spline : {"bcc7", "trilinear", "tricubic"}) {
     // A slope across all rays, from -30 to 30 in x: each ray meets it once, and every value near 0 differs from brick to brick.
-    Case c{spline, hills(make_spline(spline)->lattice(), make_spline(spline)->lattice() == LatticeKind::bcc ? Extents(16, 16, 16) : Extents(31, 31, 31))};
+    StoredCase c{spline, hills(make_spline(spline)->lattice(), make_spline(spline)->lattice() == LatticeKind::bcc ? Extents(16, 16, 16) : Extents(31, 31, 31))};
     const double step = lattice_step(c.volume.lattice);
     auto& samples = std::get<std::vector<float>>(c.volume.samples);
     const Extents n = c.volume.extents;
@@ -303,7 +303,7 @@ TEST_F(DeviceStorageTest, ASurfaceThroughManyBricksHasNoHolesAndIsNearTheUnround
 }
 
 TEST_F(DeviceStorageTest, IsRefusedWhereTheDeviceCannotReadItOrKernelsComputeInDoubles) {
-  const Case c = cases().front();
+  const StoredCase c = cases().front();
   const auto refusal = [&](Renderer::Config config, const DeviceLimits& limits) -> std::string {
     try {
       DeviceRenderer(test_kernels(), c.volume, config, limits);
@@ -320,7 +320,7 @@ TEST_F(DeviceStorageTest, IsRefusedWhereTheDeviceCannotReadItOrKernelsComputeInD
 }
 
 TEST_F(DeviceStorageTest, IsExplained) {
-  const Case c = cases().front();
+  const StoredCase c = cases().front();
   const Renderer::Request request = request_for(c.volume, 109.7, 8);
   for (const Storage storage : kStorages) {
     DeviceRenderer renderer(test_kernels(), c.volume, config_of(c.spline, storage));

@@ -12,7 +12,6 @@
 namespace quincunx {
 namespace {
 
-const World kWorld{.origin = {3.0, -7.0, 11.0}, .axes = glm::dmat3(1.0, 0.2, 0.0, -0.3, 0.8, 0.1, 0.0, 0.2, -1.1)};
 constexpr NanPolicy kEmpty{NanPolicy::Kind::empty, 0.0};
 
 /// Two stretches of values with opacity.
@@ -30,13 +29,13 @@ DirectVolume look(Classify classify, bool adaptive) {
   return volume;
 }
 
-struct Look {
+struct VoidLook {
   std::string name;
   std::function<void(Scene&)> choose;
 };
 
 /// Every way to look: first roots, surfaces behind each other, marched ones, volumes by each classification, and together.
-std::vector<Look> looks() {
+std::vector<VoidLook> void_looks() {
   const std::vector<Isosurface> clear{{0.45, {1.0, 1.0, 0.2}, 0.4}, {0.62, {0.2, 0.2, 0.9}, 0.3}};
   const auto volume = [](Classify classify, bool adaptive) {
     return [=](Scene& s) { s.isosurfaces.clear(), s.volume = look(classify, adaptive); };
@@ -78,10 +77,10 @@ TEST_P(EverySpline, ShowsVoidCellsAsTheReferenceDoes) {
   // more or less is then opaque.
   std::size_t pixels = 0, differing = 0, seen = 0;
   int view = 0;
-  for (const VoidVolume& v : void_volumes(lattice, kWorld)) {
+  for (const VoidVolume& v : void_volumes(lattice, kMirroredWorld)) {
     DeviceRenderer device(test_kernels(), v.volume, config_of(GetParam()));
     ReferenceRenderer reference(v.volume, config_of(GetParam()));
-    for (const Look& l : looks()) {
+    for (const VoidLook& l : void_looks()) {
       Renderer::Request request = view_of(v.volume, view++, 32);
       l.choose(request.scene);
       request.skip = {.structure = "grid", .block = 4};
@@ -107,7 +106,7 @@ TEST_P(EverySpline, ShowsVoidCellsAsTheReferenceDoes) {
 TEST_P(EverySpline, ShowsOutsideVoidCellsWhatTheExtendedVolumeShows) {
   std::size_t same = 0, hidden = 0;
   int view = 0;
-  for (const VoidVolume& v : void_volumes(lattice, kWorld)) {
+  for (const VoidVolume& v : void_volumes(lattice, kMirroredWorld)) {
     const Emptied e(v.volume, GetParam());
     DeviceRenderer emptied(test_kernels(), v.volume, config_of(GetParam())), extended(test_kernels(), e.volume, config_of(GetParam()));
     const Renderer::Request request = view_of(v.volume, view++, 64);
@@ -141,13 +140,13 @@ TEST_P(EverySpline, ShowsOutsideVoidCellsWhatTheExtendedVolumeShows) {
 }
 
 TEST_P(EverySpline, ShowsTheSamePictureWithEveryStructureAsWithNone) {
-  // Each look sees every other structure, in turns with and without the cell test, and the Cartesian splines share the looks: compiling kernels
+  // Each look sees every other structure, in turns with and without the cell test, and the Cartesian splines share the void_looks: compiling kernels
   // is what takes time.
-  std::vector<VoidVolume> volumes = void_volumes(lattice, kWorld);
+  std::vector<VoidVolume> volumes = void_volumes(lattice, kMirroredWorld);
   volumes.pop_back();  // the one without voids
   RenderStats stats;
   int view = 0, look_number = 0;
-  for (const Look& l : looks()) {
+  for (const VoidLook& l : void_looks()) {
     ++look_number;
     if (lattice == LatticeKind::cartesian && look_number % 2 == (GetParam() == std::string_view("trilinear"))) continue;
     std::vector<std::unique_ptr<DeviceRenderer>> renderers;

@@ -8,15 +8,14 @@
 namespace quincunx {
 namespace {
 
-const World kWorld{.origin = {3.0, -7.0, 11.0}, .axes = glm::dmat3(1.0, 0.2, 0.0, -0.3, 0.8, 0.1, 0.0, 0.2, -1.1)};
 
 /// Waves between 0 and 1, curved everywhere, 23 cells along each axis.
 Volume waves(LatticeKind lattice) {
   const auto f = [](const glm::dvec3& u) { return 0.5 + 0.25 * std::sin(0.5 * u.x + 0.1 * u.z) + 0.25 * std::cos(0.4 * u.y - 0.35 * u.z); };
-  if (lattice == LatticeKind::bcc) return bcc_volume({12, 12, 12}, f, kWorld);
+  if (lattice == LatticeKind::bcc) return bcc_volume({12, 12, 12}, f, kMirroredWorld);
   Volume volume;
   volume.extents = {24, 24, 24};
-  volume.world = kWorld;
+  volume.world = kMirroredWorld;
   std::vector<float> samples;
   for (int n = 0; n < 24 * 24 * 24; ++n) samples.push_back(float(f({n % 24, n / 24 % 24, n / 576})));
   volume.samples = std::move(samples);
@@ -34,16 +33,16 @@ DirectVolume look() {
   return volume;
 }
 
-struct Look {
+struct VolumeLook {
   std::string name;
   DirectVolume volume;
   std::vector<Isosurface> surfaces;
 };
 
 /// Every way to classify, with and without what else there is.
-std::vector<Look> looks() {
+std::vector<VolumeLook> volume_looks() {
   const std::vector<Isosurface> clear{{0.5, {1.0, 1.0, 0.2}, 0.4}, {0.72, {0.2, 0.2, 0.9}, 0.3}}, opaque{{0.66, {0.7, 0.7, 0.7}, 1.0}};
-  std::vector<Look> all(6, {"", look(), {}});
+  std::vector<VolumeLook> all(6, {"", look(), {}});
   all[0].name = "post";
   all[1].name = "pre-integrated";
   all[1].volume.classify = Classify::pre_integrated;
@@ -67,13 +66,13 @@ std::vector<Look> looks() {
   return all;
 }
 
-struct Off {
+struct VolumeOff {
   double largest = 0.0, rms = 0.0;
   std::size_t seen = 0, depth = 0;  ///< pixels with opacity; whose depth is more than a stretch off
 };
 
-Off difference(const Frame& frame, const Frame& truth, double stretch) {
-  Off off;
+VolumeOff difference(const Frame& frame, const Frame& truth, double stretch) {
+  VolumeOff off;
   for (std::size_t n = 0; n < truth.color.size(); ++n) {
     const double d = std::abs(double(frame.color[n]) - truth.color[n]);
     off.largest = std::max(off.largest, d);
@@ -104,7 +103,7 @@ TEST_P(DeviceVolume, ShowsWhatTheReferenceShows) {
   DeviceRenderer in_doubles(test_kernels(), volume, config);
   ReferenceRenderer reference(volume, config);
   int view = 0;
-  for (const Look& look : looks()) {
+  for (const VolumeLook& look : volume_looks()) {
     if (!spline->polynomial() && !look.surfaces.empty()) continue;
     Renderer::Request request = request_for(volume, 0.0, 40, 30.0 + 50.0 * view, 50.0 - 20.0 * view);
     ++view;
@@ -114,14 +113,14 @@ TEST_P(DeviceVolume, ShowsWhatTheReferenceShows) {
     request.skip = {.structure = "grid", .block = 4};
     RenderStats stats;
     const Frame frame = device.render(request, stats), truth = reference.render(request, stats);
-    const Off off = difference(frame, truth, look.volume.step * cell_length(kWorld));
+    const VolumeOff off = difference(frame, truth, look.volume.step * cell_length(kMirroredWorld));
     std::printf("%-10s %-62s largest %.1e  rms %.1e  of %zu pixels, %zu depths off\n", GetParam(), look.name.c_str(), off.largest, off.rms, off.seen, off.depth);
     EXPECT_GT(off.seen, 500u) << look.name;
     EXPECT_LT(off.largest, 7e-4) << look.name;
     EXPECT_LT(off.rms, 2e-5) << look.name;
     EXPECT_LE(off.depth, 1u) << look.name;
     // Doubles leave what the table's entries are off.
-    const Off less = difference(in_doubles.render(request, stats), truth, look.volume.step * cell_length(kWorld));
+    const VolumeOff less = difference(in_doubles.render(request, stats), truth, look.volume.step * cell_length(kMirroredWorld));
     std::printf("%-10s %-62s largest %.1e  rms %.1e\n", "in doubles", "", less.largest, less.rms);
     EXPECT_LT(less.largest, 7e-4) << look.name;
     EXPECT_LT(less.rms, 2e-5) << look.name;

@@ -11,7 +11,7 @@ namespace quincunx {
 namespace {
 
 /// Looks at places along each ray: is the block there active, and is the place in a segment of the ray's list?
-constexpr const char* kKernel = R"(#version 460
+constexpr const char* kSegmentsKernel = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "real.glsl"
@@ -71,7 +71,7 @@ class RaySegments : public DeviceTest {
     KernelVariant variant;
     set_structure(variant, *make_structure(config));
     const gpu::Pipeline list = gpu::create_pipeline(device, gpu::compile(device, kernel_files(variant), kernel_source(variant, Pass::segments)));
-    const auto files = [&](std::string_view name) { return name == "look.comp" ? std::string_view(kKernel) : shader_file(name); };
+    const auto files = [&](std::string_view name) { return name == "look.comp" ? std::string_view(kSegmentsKernel) : shader_file(name); };
     const gpu::Pipeline look = gpu::create_pipeline(device, gpu::compile(device, files, {"look.comp", {{"RAY_SEGMENTS", "1"}}}));
 
     const std::size_t texels = kRays * std::size_t(config.max_segments);

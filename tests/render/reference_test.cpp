@@ -10,12 +10,13 @@
 #include "accel/bounds.h"
 #include "lattice/error.h"
 #include "render/shading.h"
+#include "same_picture.h"
 #include "volumes.h"
 
 namespace quincunx {
 namespace {
 
-const float kInfinity = std::numeric_limits<float>::infinity();
+const float kNoHit = std::numeric_limits<float>::infinity();
 
 /// A small smooth volume with several sheets.
 Volume waves(const Extents& n, const World& world = {}) {
@@ -92,7 +93,7 @@ TEST(Reference, WhereNothingIsHitTheBackgroundShows) {
   scene.background = {0.1, 0.2, 0.3};
   const Frame frame = render(Sampled(waves_volume), scene);
   for (std::size_t p = 0; p < frame.depth.size(); ++p) {
-    EXPECT_EQ(frame.depth[p], kInfinity);
+    EXPECT_EQ(frame.depth[p], kNoHit);
     EXPECT_EQ(frame.color[4 * p], 0.1f);
     EXPECT_EQ(frame.color[4 * p + 2], 0.3f);
     EXPECT_EQ(frame.color[4 * p + 3], 0.0f);
@@ -150,13 +151,6 @@ TEST(Reference, ShowsTheImageUprightAndNotMirrored) {
   EXPECT_NEAR(ball_at({17.0, 11.5, 11.5}).y, 16.0, 1.0);
   EXPECT_LT(ball_at({11.5, 11.5, 17.0}).y, 12.0);
   EXPECT_NEAR(ball_at({11.5, 11.5, 17.0}).x, 16.0, 1.0);
-}
-
-/// Everything but the cost is equal, bit for bit.
-void expect_same_picture(const Frame& a, const Frame& b) {
-  EXPECT_EQ(a.color, b.color);
-  EXPECT_EQ(a.depth, b.depth);
-  EXPECT_EQ(a.normal, b.normal);
 }
 
 TEST(Reference, SkippingCellsChangesNoBit) {

@@ -91,12 +91,12 @@ double error_of(const Composite& seen, const Composite& truth) {
 double order_of(const std::vector<double>& errors) { return std::log2(errors.front() / errors.back()) / double(errors.size() - 1); }
 
 constexpr double kRise = 0.37;
-double ramp(const glm::dvec3& u) { return 1.5 + 0.02 * u.x - 0.05 * u.y + kRise * u.z; }
+double slanted(const glm::dvec3& u) { return 1.5 + 0.02 * u.x - 0.05 * u.y + kRise * u.z; }
 
 TEST(ReferenceVolume, ConvergesToTheClosedFormOfALinearFieldWithOrderTwo) {
   for (const char* name : {"trilinear", "tricubic", "bcc7"}) {
-    const Line line(name, ramp);
-    // Opacity where all three splines are the ramp: away from the border.
+    const Line line(name, slanted);
+    // Opacity where all three splines are the slanted: away from the border.
     const double first = line.value(0.125 * line.ray.length), middle = line.value(0.5 * line.ray.length), last = line.value(0.875 * line.ray.length);
     const DirectVolume volume = look_of({{first, 0.0}, {middle, 0.8}, {last, 0.0}});
     const double half = 0.375 * line.world_length();
@@ -117,7 +117,7 @@ TEST(ReferenceVolume, ConvergesToTheClosedFormOfALinearFieldWithOrderTwo) {
 
 TEST(ReferenceVolume, CutsStretchesWithoutAnError) {
   // Where the domain or a surface ends a stretch, its part has the opacity of its length.
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   const double begin = line.value(0.0), end = line.value(line.ray.length);
   const DirectVolume volume = look_of({{begin, 0.9}, {end, 0.7}}, Classify::pre_integrated);
   const double truth = linear_transmittance(0.9, 0.7, line.world_length(), 3.0);
@@ -160,7 +160,7 @@ TEST(ReferenceVolume, ConvergesToAFineSumOnACurvedField) {
 }
 
 TEST(ReferenceVolume, ModulatesTheExtinctionByTheGradient) {
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   const double size = glm::length(line.coefficients.world.gradient_to_world({0.02, -0.05, kRise}));
   const double begin = line.value(0.0), end = line.value(line.ray.length);
   for (const double part : {0.0, 0.3, 1.0}) {
@@ -180,7 +180,7 @@ TEST(ReferenceVolume, ModulatesTheExtinctionByTheGradient) {
 }
 
 TEST(ReferenceVolume, IsLitAsSurfacesAre) {
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   DirectVolume volume = look_of({{0.0, 0.4}, {1.0, 0.4}});
   const Composite plain = line.seen(volume, 20);
   volume.shade = true;
@@ -192,7 +192,7 @@ TEST(ReferenceVolume, IsLitAsSurfacesAre) {
 }
 
 TEST(ReferenceVolume, ShiftsTheStretchesOfEachPixelByAPartOfOne) {
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   DirectVolume volume = look_of({{0.0, 0.1}, {10.0, 0.9}});
   volume.jitter = 7;
   const ReferenceVolume reference(*line.spline, line.coefficients, volume, 0.3);
@@ -213,7 +213,7 @@ TEST(ReferenceVolume, ShiftsTheStretchesOfEachPixelByAPartOfOne) {
 }
 
 TEST(ReferenceVolume, EndsWhereNothingMoreCanBeSeen) {
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   DirectVolume volume = look_of({{0.0, 0.9}, {10.0, 0.9}});
   const double left = std::pow(0.1, line.world_length() / 64 / 3.0);  // by one stretch
   volume.termination = 0.01;
@@ -225,7 +225,7 @@ TEST(ReferenceVolume, EndsWhereNothingMoreCanBeSeen) {
 }
 
 TEST(ReferenceVolume, SaysWhereHalfOfWhatIsBehindIsHidden) {
-  const Line line("trilinear", ramp);
+  const Line line("trilinear", slanted);
   DirectVolume volume = look_of({{0.0, 0.9}, {10.0, 0.9}});
   const double stretch = line.world_length() / 64;
   volume.step = stretch / line.cell();

@@ -9,7 +9,7 @@
 namespace quincunx {
 namespace {
 
-constexpr const char* kKernel = R"(#version 460
+constexpr const char* kSkipKernel = R"(#version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -138,7 +138,7 @@ const gpu::Pipeline& property_pipeline(const SkipConfig& config) {
   gpu::KernelSource source = kernel_source(variant, Pass::trace);
   source.file = "property.comp";
   const auto files = [rest = kernel_files(variant)](std::string_view name) {
-    return name == "property.comp" ? std::string_view(kKernel) : rest(name);
+    return name == "property.comp" ? std::string_view(kSkipKernel) : rest(name);
   };
   gpu::Device& device = test_kernels()->device();
   return made[variant] = gpu::create_pipeline(device, gpu::compile(device, files, source));

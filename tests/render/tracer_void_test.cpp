@@ -8,7 +8,7 @@
 namespace quincunx {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
 
 /// Random rays through the domain, from outside and from inside of it.
 std::vector<LatticeRay> random_rays(const Coefficients<double>& c, int count, unsigned seed) {
@@ -83,11 +83,11 @@ TEST(TracerWithVoids, CrossesWhatDenseSamplesCrossOutsideVoidCellsAndNothingElse
 
 /// f = x but for a slab of samples 11 <= x <= 12.
 Volume ramp_with_a_slab(LatticeKind lattice) {
-  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 11.0 || u.x == 12.0 ? kNan : u.x; });
+  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 11.0 || u.x == 12.0 ? kVoid : u.x; });
 }
 /// 0 in front of the slab, 1 behind.
 Volume step_with_a_slab(LatticeKind lattice) {
-  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 9.0 || u.x == 10.0 ? kNan : u.x < 9.0 ? 0.0 : 1.0; });
+  return field_volume(lattice, [](const glm::dvec3& u) { return u.x == 9.0 || u.x == 10.0 ? kVoid : u.x < 9.0 ? 0.0 : 1.0; });
 }
 
 TEST(TracerWithVoids, HitsTheSurfaceBehindAVoidAndIsNotPoisonedBesideIt) {

@@ -40,7 +40,7 @@ Scene scene_of(const Voxels& voxels, const TransferFunction& function, int size 
 /// Of one opacity for all values, white.
 TransferFunction constant(double opacity, double unit = 0.0) { return {{{0.0, glm::dvec3(1.0)}}, {{0.0, opacity}, {1.0, opacity}}, unit}; }
 /// Colours and opacities that go along with the value.
-TransferFunction ramp() { return {{{0.0, {1.0, 0.1, 0.0}}, {1.0, {0.0, 0.3, 1.0}}}, {{0.2, 0.0}, {0.6, 0.5}, {1.0, 0.05}}, 0.0}; }
+TransferFunction voxel_ramp() { return {{{0.0, {1.0, 0.1, 0.0}}, {1.0, {0.0, 0.3, 1.0}}}, {{0.2, 0.0}, {0.6, 0.5}, {1.0, 0.05}}, 0.0}; }
 
 Frame device_frame(const Voxels& voxels, const Scene& scene, const VoxelRenderer::Config& config = {}, RenderStats* stats = nullptr) {
   VoxelRenderer renderer(test_device(), voxels, config);
@@ -62,12 +62,12 @@ std::vector<double> lengths(const Voxels& voxels, const Scene& scene) {
 }
 
 /// The largest difference of any channel of colour, and how many pixels differ by more than `small`.
-struct Off {
+struct VoxelOff {
   double most = 0.0;
   std::size_t pixels = 0;
 };
-Off off(const Frame& a, const Frame& b, double small) {
-  Off result;
+VoxelOff off(const Frame& a, const Frame& b, double small) {
+  VoxelOff result;
   for (std::size_t p = 0; p < a.depth.size(); ++p) {
     double worst = 0.0;
     for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(double(a.color[4 * p + c]) - b.color[4 * p + c]));
@@ -81,7 +81,7 @@ Off off(const Frame& a, const Frame& b, double small) {
 /// the slope at which it crosses: along a ray nearly inside of a plane by up to a hundredth of a cell, by which a voxel's neighbour takes its place.
 void expect_as_in_doubles(const Voxels& voxels, const Scene& scene) {
   const Frame truth = render_reference_voxels(voxels, scene), frame = device_frame(voxels, scene);
-  const Off found = off(frame, truth, 2e-5);
+  const VoxelOff found = off(frame, truth, 2e-5);
   EXPECT_LT(found.most, 2e-3);
   EXPECT_LE(found.pixels, truth.depth.size() / 100);
   EXPECT_GT(count_hits(truth), truth.depth.size() / 10);
@@ -165,7 +165,7 @@ TEST(VoxelReference, PassesVoxelsFrontToBack) {
 }
 
 TEST(VoxelTable, BeginsWhereTheTransferFunctionGivesOpacity) {
-  EXPECT_EQ(least_visible(ramp()), std::nextafter(0.2, 1.0));
+  EXPECT_EQ(least_visible(voxel_ramp()), std::nextafter(0.2, 1.0));
   EXPECT_EQ(least_visible(constant(0.5)), -INFINITY);
   EXPECT_EQ(least_visible(constant(0.0)), INFINITY);
 }
@@ -199,8 +199,8 @@ TEST_F(VoxelRendering, IsThatOfTheReference) {
     const Volume volume = volume_of(lattice, {13, 11, 9}, [&](const glm::dvec3& u) { return u.x < 6.0 ? 0.5 + 0.02 * u.y : uniform(random); }, world);
     for (const std::optional<double> deviation : {std::optional<double>(), std::optional<double>(0.05), std::optional<double>(0.4)}) {
       SCOPED_TRACE(testing::Message() << lattice_name(lattice) << " " << deviation.value_or(-1.0));
-      const Voxels voxels = volume_voxels(volume, {.minimum = least_visible(ramp()), .deviation = deviation});
-      Scene scene = scene_of(voxels, ramp());
+      const Voxels voxels = volume_voxels(volume, {.minimum = least_visible(voxel_ramp()), .deviation = deviation});
+      Scene scene = scene_of(voxels, voxel_ramp());
       scene.background = {0.1, 0.2, 0.3};
       expect_as_in_doubles(voxels, scene);
     }
@@ -210,7 +210,7 @@ TEST_F(VoxelRendering, IsThatOfTheReference) {
 TEST_F(VoxelRendering, IsThatOfTheReferenceHoweverItIsLitFromInsideAndWithoutLight) {
   const Volume volume = volume_of(LatticeKind::cartesian, {12, 12, 12}, [](const glm::dvec3& u) { return 0.5 + 0.5 * std::sin(u.x) * std::cos(0.7 * u.y + u.z); });
   const Voxels voxels = volume_voxels(volume, {.minimum = 0.3, .deviation = 0.1});
-  Scene scene = scene_of(voxels, ramp());
+  Scene scene = scene_of(voxels, voxel_ramp());
   scene.volume->shade = false;
   expect_as_in_doubles(voxels, scene);
   scene.volume->modulate_from = 0.1, scene.volume->modulate_to = 0.5;
@@ -226,7 +226,7 @@ TEST_F(VoxelRendering, OfSpheresThatOverlapIsThatOfTheReference) {
   std::vector<Particle> particles;
   for (int n = 0; n < 300; ++n) particles.push_back({{3.0 * uniform(random), 4.0 * uniform(random), 2.0 * uniform(random)}, 0.05 + 0.3 * uniform(random), uniform(random)});
   const Voxels voxels = particle_voxels(particles, "particles");
-  Scene scene = scene_of(voxels, ramp());
+  Scene scene = scene_of(voxels, voxel_ramp());
   expect_as_in_doubles(voxels, scene);
   scene.camera = {.eye = {1.5, 2.0, 1.0}, .target = {3.0, 3.0, 1.2}, .up = {0.0, 0.0, 1.0}, .fov = 60.0};
   expect_as_in_doubles(voxels, scene);
@@ -235,7 +235,7 @@ TEST_F(VoxelRendering, OfSpheresThatOverlapIsThatOfTheReference) {
 TEST_F(VoxelRendering, EndsRaysEarlyWithinWhatTheyLetThrough) {
   const Volume volume = volume_of(LatticeKind::cartesian, {12, 12, 12}, [](const glm::dvec3& u) { return 0.5 + 0.5 * std::sin(u.x + u.y) * std::cos(u.z); });
   const Voxels voxels = volume_voxels(volume, {.minimum = 0.3, .deviation = {}});
-  Scene scene = scene_of(voxels, ramp());
+  Scene scene = scene_of(voxels, voxel_ramp());
   scene.cost = true;
   const Frame whole = device_frame(voxels, scene);
   scene.volume->termination = 0.1;
@@ -250,7 +250,7 @@ TEST_F(VoxelRendering, IsTheSameBitForBitWhateverTheTreeAndTheBands) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const Volume volume = volume_of(LatticeKind::bcc, {9, 9, 9}, [&](const glm::dvec3& u) { return u.x < 6.0 ? 0.5 + 0.02 * u.y : uniform(random); });
   const Voxels voxels = volume_voxels(volume, {.minimum = 0.3, .deviation = 0.05});
-  const Scene scene = scene_of(voxels, ramp());
+  const Scene scene = scene_of(voxels, voxel_ramp());
   const Frame frame = device_frame(voxels, scene);
   for (const int leaf_size : {2, 7}) expect_same_picture(device_frame(voxels, scene, {.leaf_size = leaf_size}), frame);
   expect_same_picture(device_frame(voxels, scene, {.frame_bytes = 16 * 40 * 8}), frame);
@@ -259,7 +259,7 @@ TEST_F(VoxelRendering, IsTheSameBitForBitWhateverTheTreeAndTheBands) {
 TEST_F(VoxelRendering, OfNothingIsItsBackground) {
   const Volume volume = volume_of(LatticeKind::cartesian, {4, 4, 4}, [](const glm::dvec3&) { return 0.0; });
   const Voxels voxels = volume_voxels(volume, {.minimum = 0.5, .deviation = {}});
-  Scene scene = scene_of(voxels, ramp());
+  Scene scene = scene_of(voxels, voxel_ramp());
   scene.background = {0.25, 0.5, 0.75};
   const Frame frame = device_frame(voxels, scene);
   EXPECT_EQ(count_hits(frame), 0u);
@@ -271,7 +271,7 @@ TEST_F(VoxelRendering, TellsWhatItTakes) {
   const Voxels voxels = volume_voxels(volume, {.minimum = 0.5, .deviation = {}});
   RenderStats stats;
   VoxelRenderer renderer(test_device(), voxels, {});
-  renderer.render({.scene = scene_of(voxels, ramp()), .skip = {}, .repeat = 2, .count_costs = true}, stats);
+  renderer.render({.scene = scene_of(voxels, voxel_ramp()), .skip = {}, .repeat = 2, .count_costs = true}, stats);
   ASSERT_TRUE(stats.voxels.has_value());
   EXPECT_EQ(stats.voxels->voxels, 256u);
   EXPECT_EQ(stats.voxels->samples, 512u);

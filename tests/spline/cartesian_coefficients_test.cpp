@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto kPrefiltered = Spline::Prefilter::automatic;
 
-const Extents kExtents[] = {{3, 4, 5}, {1, 1, 6}, {1, 1, 1}, {5, 1, 2}, {2, 2, 2}};
+const Extents kCartesianExtents[] = {{3, 4, 5}, {1, 1, 6}, {1, 1, 1}, {5, 1, 2}, {2, 2, 2}};
 
 double clamped_sample(const Volume& volume, const glm::i64vec3& index) {
   return volume.sample(0, glm::clamp(index, glm::i64vec3(0), volume.extents - std::int64_t(1)));
@@ -36,7 +36,7 @@ double filtered(const Volume& volume, const glm::i64vec3& index, double side) {
 constexpr double kCubicSide = 1.0 / 6.0, kQuadraticSide = 1.0 / 8.0;
 
 TEST(CartesianCoefficients, AreTheDefinitionWithClampedSamplesAndClampedAprons) {
-  for (const Extents& extents : kExtents) {
+  for (const Extents& extents : kCartesianExtents) {
     const Volume volume = random_volume(LatticeKind::cartesian, extents, 1);
     const auto c = Tricubic().coefficients(volume, kPrefiltered);
     const auto quadratic = Triquadratic().coefficients(volume, kPrefiltered);
@@ -62,7 +62,7 @@ TEST(CartesianCoefficients, AreTheDefinitionWithClampedSamplesAndClampedAprons) 
 TEST(CartesianCoefficients, HoldTheStencilOfEveryPointAndCellOfTheSmallestDomains) {
   for (const auto& [name, side] : {std::pair{"trilinear", 0.0}, {"triquadratic", kQuadraticSide}, {"tricubic", kCubicSide}, {"catmull-rom", 0.0}}) {
     const auto spline = make_spline(name);
-    for (const Extents& extents : kExtents) {
+    for (const Extents& extents : kCartesianExtents) {
       const Volume volume = random_volume(LatticeKind::cartesian, extents, 2);
       const auto c = spline->coefficients(volume, kPrefiltered);
       const glm::dvec3 last(domain_max(LatticeKind::cartesian, extents));
@@ -121,7 +121,7 @@ TEST(CartesianCoefficients, OfAConstantAreThatConstant) {
   EXPECT_THAT(c.data, testing::Each(130.0));
 }
 
-std::string refusal(const Volume& volume) {
+std::string tricubic_refusal(const Volume& volume) {
   try {
     Tricubic().coefficients_float(volume, kPrefiltered);
   } catch (const InputError& error) {
@@ -131,13 +131,13 @@ std::string refusal(const Volume& volume) {
 }
 
 TEST(CartesianCoefficients, RefuseTheOtherLatticeAndSamplesThatAreNotFiniteOrOverflow) {
-  EXPECT_THAT(refusal(random_volume(LatticeKind::bcc, {3, 4, 5}, 5)),
+  EXPECT_THAT(tricubic_refusal(random_volume(LatticeKind::bcc, {3, 4, 5}, 5)),
               testing::HasSubstr("tricubic: found a volume on the bcc lattice, expected cartesian"));
   Volume volume = random_volume(LatticeKind::cartesian, {3, 4, 5}, 4);
   std::get<std::vector<float>>(volume.samples)[2 * 12 + 3 * 3 + 1] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(refusal(volume), testing::HasSubstr("found 1 NaN or infinite of 60 samples, the first at index (1, 3, 2)"));
+  EXPECT_THAT(tricubic_refusal(volume), testing::HasSubstr("found 1 NaN or infinite of 60 samples, the first at index (1, 3, 2)"));
   volume = volume_of(LatticeKind::cartesian, {2, 2, 2}, [](const glm::dvec3& u) { return u.x == 0.0 ? 3e38 : -3e38; });
-  EXPECT_THAT(refusal(volume), testing::HasSubstr("overflow float"));
+  EXPECT_THAT(tricubic_refusal(volume), testing::HasSubstr("overflow float"));
 }
 
 /// The samples of an index box of a volume.

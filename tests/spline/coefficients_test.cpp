@@ -28,11 +28,11 @@ double q7(const Volume& volume, const glm::ivec3& u) {
   return 19.0 / 12.0 * clamped_sample(volume, u) - neighbours / 24.0;
 }
 
-const Extents kExtents[] = {{3, 4, 5}, {1, 1, 6}, {1, 1, 1}, {5, 1, 2}};
+const Extents kBccExtents[] = {{3, 4, 5}, {1, 1, 6}, {1, 1, 1}, {5, 1, 2}};
 
 TEST(Coefficients, AreTheDefinitionOfQ7WithClampedSamplesAndClampedAprons) {
   const Bcc7 spline;
-  for (const Extents& extents : kExtents) {
+  for (const Extents& extents : kBccExtents) {
     const Volume volume = random_volume(LatticeKind::bcc, extents, 1);
     const auto c = spline.coefficients(volume, Spline::Prefilter::automatic);
     ASSERT_EQ(c.data.size(), std::size_t(2 * (extents.x + 2) * (extents.y + 2) * (extents.z + 2)));
@@ -48,7 +48,7 @@ TEST(Coefficients, AreTheDefinitionOfQ7WithClampedSamplesAndClampedAprons) {
 
 TEST(Coefficients, GiveTheClampedSplineOnTheBorderOfTheSmallestDomains) {
   const Bcc7 spline;
-  for (const Extents& extents : kExtents) {
+  for (const Extents& extents : kBccExtents) {
     const Volume volume = random_volume(LatticeKind::bcc, extents, 2);
     const auto c = spline.coefficients(volume, Spline::Prefilter::automatic);
     const glm::dvec3 last(domain_max(LatticeKind::bcc, extents));
@@ -101,7 +101,7 @@ TEST(Coefficients, OfAConstantAreThatConstant) {
 }
 
 /// The message of the InputError that making coefficients ends in.
-std::string refusal(const Volume& volume) {
+std::string bcc7_refusal(const Volume& volume) {
   try {
     Bcc7().coefficients_float(volume, Spline::Prefilter::automatic);
   } catch (const InputError& error) {
@@ -115,17 +115,17 @@ TEST(Coefficients, RefuseSamplesThatAreNotFiniteAndSayHowManyAndWhere) {
   auto& samples = std::get<std::vector<float>>(volume.samples);
   samples[60 + 2 * 12 + 3 * 3 + 1] = std::numeric_limits<float>::quiet_NaN();
   samples[60 + 4 * 12] = std::numeric_limits<float>::infinity();
-  EXPECT_THAT(refusal(volume), testing::AllOf(testing::HasSubstr("found 2 NaN or infinite of 120"),
+  EXPECT_THAT(bcc7_refusal(volume), testing::AllOf(testing::HasSubstr("found 2 NaN or infinite of 120"),
                                               testing::HasSubstr("coset 1, index (1, 3, 2)")));
 }
 
 TEST(Coefficients, RefuseTheOtherLatticeAndSamplesThatOverflowAndSamplesThatAreMissing) {
   Volume volume = random_volume(LatticeKind::cartesian, {3, 4, 5}, 5);
-  EXPECT_THAT(refusal(volume), testing::HasSubstr("found a volume on the cartesian lattice, expected bcc"));
+  EXPECT_THAT(bcc7_refusal(volume), testing::HasSubstr("found a volume on the cartesian lattice, expected bcc"));
   volume = volume_of(LatticeKind::bcc, {2, 2, 2}, [](const glm::dvec3& u) { return u.x == 0.0 ? 3e38 : -3e38; });
-  EXPECT_THAT(refusal(volume), testing::HasSubstr("overflow float"));
+  EXPECT_THAT(bcc7_refusal(volume), testing::HasSubstr("overflow float"));
   std::get<std::vector<float>>(volume.samples).pop_back();
-  EXPECT_NE(refusal(volume), "accepted");
+  EXPECT_NE(bcc7_refusal(volume), "accepted");
 }
 
 TEST(Coefficients, ReportProgressToTheEndOneThreadAtATimeAndStopWhenAsked) {
