@@ -1,23 +1,35 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test; the last line says how many passed and failed.
+# test.sh [PRESET ...]: installs what is missing, builds, and runs the tests of each preset; without one, every test as it is used
+# (release) and those of the libraries once more under AddressSanitizer and UndefinedBehaviorSanitizer (sanitize-day). The last line says
+# how many passed and failed. `./test.sh sanitize` runs every test under the sanitizers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
+presets=("$@")
+((${#presets[@]} > 0)) || presets=(release sanitize-day)
 ./setup.sh
-cmake/build.sh
 status=0
 folders=()
-# run PRESET: its tests. What they did goes to tests.xml and tests/ of its build folder.
-run() {
-  local folder=$PWD/build/$1
+for preset in "${presets[@]}"; do
+  # What the tests did goes to tests.xml and tests/ of the build folder.
+  case $preset in
+    release | debug | sanitize) build=$preset targets=() ;;
+    sanitize-day) build=sanitize targets=(library_tests) ;;
+    *)
+      echo "test.sh: found preset $preset, expected release, debug, sanitize or sanitize-day" >&2
+      exit 2
+      ;;
+  esac
+  folder=$PWD/build/$build
+  PRESET=$build cmake/build.sh ${targets[@]+"${targets[@]}"}
   rm -rf "$folder/tests.xml" "$folder"/tests/*.xml
   folders+=("$folder")
-  ctest --preset "$1" --output-junit "$folder/tests.xml" </dev/null || status=$?
-  [[ -s $folder/tests.xml ]] && return
-  echo "test.sh: ctest --preset $1 ended with status $status and without results" >&2
-  echo "0 passed, 1 failed"
-  exit 1
-}
-run release
+  ctest --preset "$preset" --output-junit "$folder/tests.xml" </dev/null || status=$?
+  if [[ ! -s $folder/tests.xml ]]; then
+    echo "test.sh: ctest --preset $preset ended with status $status and without results" >&2
+    echo "0 passed, 1 failed"
+    exit 1
+  fi
+done
 tests/count_results.py "${folders[@]}" || status=1
 exit "$status"
