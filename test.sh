@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # test.sh [PRESET ...]: installs what is missing, builds, and runs the tests of each preset; without one, every test as it is used
-# (release) and those of the libraries once more under AddressSanitizer and UndefinedBehaviorSanitizer (sanitize-day). The last line says
+# (release) and those of lattices, splines and files once more under AddressSanitizer and UndefinedBehaviorSanitizer (sanitize-day). The last line says
 # how many passed and failed. `./test.sh sanitize` runs every test under the sanitizers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -14,7 +14,7 @@ for preset in "${presets[@]}"; do
   # What the tests did goes to tests.xml and tests/ of the build folder.
   case $preset in
     release | debug | sanitize) build=$preset targets=() ;;
-    sanitize-day) build=sanitize targets=(library_tests) ;;
+    sanitize-day) build=sanitize targets=(sanitize_day_tests) ;;
     *)
       echo "test.sh: found preset $preset, expected release, debug, sanitize or sanitize-day" >&2
       exit 2
