@@ -66,6 +66,13 @@ std::vector<int> parse_integers(std::string_view text, std::string_view flag, in
   return values;
 }
 
+std::vector<int> parse_ascending(std::string_view text, std::string_view flag, int low, int high) {
+  const std::vector<int> values = parse_integers(text, flag, low, high);
+  for (std::size_t n = 1; n < values.size(); ++n)
+    if (values[n] <= values[n - 1]) throw InputError(fmt::format("{}: found {} after {}, expected ascending ones", flag, values[n], values[n - 1]));
+  return values;
+}
+
 glm::dvec3 parse_color(std::string_view text, std::string_view flag) {
   const auto refuse = [&] {
     return InputError(fmt::format("{}: found {}, expected r,g,b with each from 0 to 1, or #rrggbb", flag, in_quotes(text)));

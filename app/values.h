@@ -24,6 +24,9 @@ std::int64_t parse_integer(std::string_view text, std::string_view flag, std::in
 /// Integers separated by commas, at least one, each low <= it <= high. Throws InputError naming `flag`.
 std::vector<int> parse_integers(std::string_view text, std::string_view flag, int low, int high);
 
+/// The same, ascending and no two alike.
+std::vector<int> parse_ascending(std::string_view text, std::string_view flag, int low, int high);
+
 /// "r,g,b" (linear, each 0..1) or "#rrggbb" (sRGB) as linear RGB. Throws InputError naming `flag`.
 glm::dvec3 parse_color(std::string_view text, std::string_view flag);
 

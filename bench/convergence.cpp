@@ -28,9 +28,7 @@ std::vector<std::string> parse_splines(const std::string& text) {
 }
 
 std::vector<int> parse_samples(const std::string& text) {
-  const std::vector<int> samples = parse_integers(text, "--samples", 16, 512);
-  for (std::size_t n = 1; n < samples.size(); ++n)
-    if (samples[n] <= samples[n - 1]) throw InputError(fmt::format("--samples: found {} after {}, expected ascending ones", samples[n], samples[n - 1]));
+  const std::vector<int> samples = parse_ascending(text, "--samples", 16, 512);
   if (samples.size() < 2) throw InputError(fmt::format("--samples: found {}, expected two or more", text));
   return samples;
 }

@@ -30,13 +30,6 @@ struct GrowthFlags {
   Verbosity verbosity = Verbosity::normal;
 };
 
-std::vector<int> parse_ascending_sizes(const std::string& text) {
-  const std::vector<int> sizes = parse_integers(text, "--sizes", 2, 1024);
-  for (std::size_t n = 1; n < sizes.size(); ++n)
-    if (sizes[n] <= sizes[n - 1]) throw InputError(fmt::format("--sizes: found {} after {}, expected ascending ones", sizes[n], sizes[n - 1]));
-  return sizes;
-}
-
 /// One volume: all settings from one view. Adds to the lines of its field, `none` and then one a label.
 void measure_volume(const GrowthFlags& flags, const Field& field, int size, std::span<GrowthLine> lines, std::string& device,
                     ProgressBar& bar) {
@@ -112,7 +105,7 @@ Command growth_command(CLI::App& program) {
       *app, "--fields", [flags](const std::string& text) { flags->fields = parse_choices(text, "--fields", {field_names().begin(), field_names().end()}); }, "F[,F...]",
       "marschner-lobb,gyroid", "Objects, those of `quincunx sample`, at their isovalues");
   add_parsed(
-      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_ascending_sizes(text); }, "N[,N...]", "64,128,256",
+      *app, "--sizes", [flags](const std::string& text) { flags->sizes = parse_ascending(text, "--sizes", 2, 1024); }, "N[,N...]", "64,128,256",
       "Samples per axis of each coset, ascending");
   add_structures(*app, flags->choices.labels);
   add_blocks(*app, "--block", flags->choices.blocks);

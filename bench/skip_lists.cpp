@@ -24,13 +24,7 @@ void add_new(std::vector<T>& values, T value, const std::string& flag) {
 
 CLI::Option* add_structures(CLI::App& app, std::vector<std::string>& labels) {
   const std::vector<std::string> choices(skip_labels().begin(), skip_labels().end());
-  const auto parse = [&labels, choices](const std::string& text) {
-    labels.clear();
-    for (const std::string_view label : split_list(text)) {
-      check_choice(label, "--structures", choices);
-      add_new(labels, std::string(label), "--structures");
-    }
-  };
+  const auto parse = [&labels, choices](const std::string& text) { labels = parse_choices(text, "--structures", choices); };
   return add_parsed(app, "--structures", parse, "L[,L...]", "", fmt::format("Some of {}; else all", fmt::join(choices, ", ")));
 }
 

@@ -163,13 +163,10 @@ void voxels(const VoxelsFlags& flags) {
 }
 
 /// Numbers of at least `least`, ascending or not.
-std::vector<double> parse_numbers(const std::string& text, const std::string& flag, double least) {
-  std::vector<double> numbers;
-  for (const std::string_view part : split_list(text)) {
-    const double number = parse_number(part, flag);
-    if (!(number >= least)) throw InputError(fmt::format("{}: found {}, expected numbers of at least {}", flag, number, least));
-    numbers.push_back(number);
-  }
+std::vector<double> numbers_from(const std::string& text, const std::string& flag, double least) {
+  const std::vector<double> numbers = parse_numbers(text, flag);
+  for (const double number : numbers)
+    if (number < least) throw InputError(fmt::format("{}: found {}, expected numbers of at least {}", flag, number, least));
   return numbers;
 }
 
@@ -184,8 +181,8 @@ Command voxels_command(CLI::App& program) {
       "first line, a smooth spline in steps of a quarter cell.");
   app->add_option("VOLUME", flags->scene.volume, "NRRD file of a volume")->required();
   app->add_option("--tf", flags->scene.look.transfer_function, "Transfer function")->type_name("F.json")->required();
-  add_parsed(*app, "--supersample", [flags](const std::string& text) { flags->factors = parse_numbers(text, "--supersample", 1.0); }, "F[,F...]", "1,1.5,2", "Samples per axis in place of one, of voxels");
-  add_parsed(*app, "--lod", [flags](const std::string& text) { flags->deviations = parse_numbers(text, "--lod", 0.0); }, "D[,D...]", "",
+  add_parsed(*app, "--supersample", [flags](const std::string& text) { flags->factors = numbers_from(text, "--supersample", 1.0); }, "F[,F...]", "1,1.5,2", "Samples per axis in place of one, of voxels");
+  add_parsed(*app, "--lod", [flags](const std::string& text) { flags->deviations = numbers_from(text, "--lod", 0.0); }, "D[,D...]", "",
              "Also voxels merged where they differ from their mean by no more than this, as --bih-lod does");
   add_size(*app, flags->scene.scene.width, flags->scene.scene.height);
   add_integer(*app, "--views", flags->views, 1, 1000, "Views of the orbit, their azimuths equally apart");

@@ -28,6 +28,16 @@ TEST(Values, AreIntegersWithinTheirLimits) {
   }
 }
 
+TEST(Values, AreListsOfIntegersThatMayHaveToAscend) {
+  EXPECT_EQ(parse_integers("4,2,2", "--sizes", 1, 8), (std::vector<int>{4, 2, 2}));
+  EXPECT_EQ(parse_ascending("1,2,8", "--sizes", 1, 8), (std::vector<int>{1, 2, 8}));
+  for (const char* bad : {"", "2,", "0,2", "2,9", "2,x"}) {
+    EXPECT_THROW(parse_integers(bad, "--sizes", 1, 8), InputError) << bad;
+    EXPECT_THROW(parse_ascending(bad, "--sizes", 1, 8), InputError) << bad;
+  }
+  for (const char* bad : {"2,2", "2,4,3"}) EXPECT_THROW(parse_ascending(bad, "--sizes", 1, 8), InputError) << bad;
+}
+
 TEST(Values, AreColoursLinearOrOfSrgb) {
   EXPECT_EQ(parse_color("0.25,0.5,1", "--color"), glm::dvec3(0.25, 0.5, 1.0));
   EXPECT_EQ(parse_color("#ff0000", "--color"), glm::dvec3(1.0, 0.0, 0.0));

@@ -147,7 +147,7 @@ TEST_P(EveryLook, IsTheSameThroughAPool) {
   EXPECT_GT(evictions, 30u) << "pools were too small";
 }
 
-// Small volumes (below) are seen with every spline; all brick_looks with three, as compiling so many kernels takes long.
+// Small volumes (below) are seen with every spline; all looks with three, as compiling so many kernels takes long.
 INSTANTIATE_TEST_SUITE_P(Splines, EveryLook, ::testing::Values("bcc7", "trilinear", "tricubic"), [](const auto& spline) { return std::string(spline.param); });
 
 TEST_F(DeviceBricksTest, EveryStructureWithBlocksOfEverySizeShowsTheSame) {

@@ -140,7 +140,7 @@ TEST_P(EverySpline, ShowsOutsideVoidCellsWhatTheExtendedVolumeShows) {
 }
 
 TEST_P(EverySpline, ShowsTheSamePictureWithEveryStructureAsWithNone) {
-  // Each look sees every other structure, in turns with and without the cell test, and the Cartesian splines share the void_looks: compiling kernels
+  // Each look sees every other structure, in turns with and without the cell test, and the Cartesian splines share the looks: compiling kernels
   // is what takes time.
   std::vector<VoidVolume> volumes = void_volumes(lattice, kMirroredWorld);
   volumes.pop_back();  // the one without voids

@@ -96,7 +96,7 @@ double slanted(const glm::dvec3& u) { return 1.5 + 0.02 * u.x - 0.05 * u.y + kRi
 TEST(ReferenceVolume, ConvergesToTheClosedFormOfALinearFieldWithOrderTwo) {
   for (const char* name : {"trilinear", "tricubic", "bcc7"}) {
     const Line line(name, slanted);
-    // Opacity where all three splines are the slanted: away from the border.
+    // Opacity where all three splines are slanted alike: away from the border.
     const double first = line.value(0.125 * line.ray.length), middle = line.value(0.5 * line.ray.length), last = line.value(0.875 * line.ray.length);
     const DirectVolume volume = look_of({{first, 0.0}, {middle, 0.8}, {last, 0.0}});
     const double half = 0.375 * line.world_length();

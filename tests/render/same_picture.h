@@ -1,3 +1,4 @@
+// Pictures that have to be the same, bit for bit.
 #pragma once
 
 #include <gtest/gtest.h>
