@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # test.sh [PRESET ...]: installs what is missing, builds, and runs the tests of each preset; without one, every test as it is used
-# (release) and those of lattices, splines and files once more under AddressSanitizer and UndefinedBehaviorSanitizer (sanitize-day). The last line says
+# (release) and those of lattices and files once more under AddressSanitizer and UndefinedBehaviorSanitizer (sanitize-day). The last line says
 # how many passed and failed. `./test.sh sanitize` runs every test under the sanitizers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
